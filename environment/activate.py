@@ -1,0 +1,85 @@
+"""The environment variables that a job runs with."""
+
+import json
+import os
+from pathlib import Path
+
+from environment.places import Places
+from environment.ros import Ros
+
+# What a shell may carry from elsewhere (another workspace, ROS 1, a hand-set PYTHONPATH). With the wheels nothing of
+# it fits; a machine's own ROS 2, on the other hand, is found through these.
+_FOREIGN = ("AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH", "COLCON_PREFIX_PATH", "PYTHONPATH")
+
+# Says that a shell was opened by this checkout's trackvib, so that what was added to its lists since is the user's.
+_MARK = "TRACKVIB_ENVIRONMENT"
+
+
+def captured_path(places: Places) -> Path:
+    """File with what the set-up scripts of ROS 2 and of the workspace change (see `ros.changes`)."""
+    return places.workspace / "environment.json"
+
+
+def variables(places: Places, ros: Ros, environ) -> dict:
+    """Variables for a job, from the user's `environ`; what the user set for ROS 2 stays as it is."""
+    env = before_workspace(places, ros, environ)
+    captured = json.loads(captured_path(places).read_text())
+    if ros.prefix and not ros.sourced:
+        apply(env, captured["ros"])
+    apply(env, captured["workspace"])
+    # The virtual environment in front of everything, the stand-in for `ros2` behind: a real one wins.
+    put_first(env, "PATH", [str(places.venv / "bin")])
+    stand_in = str(places.environment / "bin")
+    env["PATH"] = os.pathsep.join([e for e in env["PATH"].split(os.pathsep) if e != stand_in] + [stand_in])
+    return env
+
+
+def before_workspace(places: Places, ros: Ros, environ) -> dict:
+    """Variables without those of the colcon workspace and of the machine's own ROS 2: what both are added to."""
+    env = dict(environ)
+    env.pop("PYTHONHOME", None)
+    if ros.prefix is None:
+        if env.get(_MARK) != str(places.root):
+            for name in _FOREIGN:
+                env.pop(name, None)
+        apply(env, _wheels(places))
+    put_first(env, "PATH", [str(places.venv / "bin")])
+    env[_MARK] = str(places.root)
+    env["VIRTUAL_ENV"] = str(places.venv)
+    env["PYTHONNOUSERSITE"] = "1"  # packages under ~/.local are neither pinned nor known
+    env["HOME"] = env.get("HOME") or _home(places)
+    env.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    if os.access(places.logs, os.W_OK):  # a checkout may belong to somebody else
+        env.setdefault("ROS_LOG_DIR", str(places.logs / "ros"))
+    return env
+
+
+def apply(env: dict, change: dict) -> None:
+    """Carry out a change in the form of `ros.changes` on `env`; a second time changes nothing."""
+    for name, entries in change["first"].items():
+        put_first(env, name, entries)
+    env.update(change["set"])
+
+
+def put_first(env: dict, name: str, entries: list) -> None:
+    """Put `entries` in front of the list variable `name`, each once."""
+    rest = [entry for entry in env.get(name, "").split(os.pathsep) if entry and entry not in entries]
+    if entries or rest:
+        env[name] = os.pathsep.join([*entries, *rest])
+
+
+def _wheels(places: Places) -> dict:
+    """What the ROS 2 wheels need; without it they start every Python twice, to set it themselves."""
+    libraries = sorted(str(path) for path in places.venv.glob("lib/python3.*/site-packages/ros_*.libs"))
+    first = {
+        "AMENT_PREFIX_PATH": [str(places.venv)],
+        "CMAKE_PREFIX_PATH": [str(places.venv)],
+        "LD_LIBRARY_PATH": [str(places.venv / "lib"), *libraries],
+    }
+    return {"first": first, "set": {"_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"}}
+
+
+def _home(places: Places) -> str:
+    """A home for users without one, who cannot start rclpy otherwise."""
+    home = os.path.expanduser("~")
+    return home if os.path.isdir(home) else str(places.home)

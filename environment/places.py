@@ -1,0 +1,24 @@
+"""Where everything lies in a checkout."""
+
+import os
+from pathlib import Path
+
+
+class Places:
+    """Paths of one checkout. All that the set-up makes lies under `home` and may be deleted at any time."""
+
+    def __init__(self, root: Path):
+        self.root = root
+        self.sources = root / "ros2_ws" / "src"
+        self.environment = root / "environment"
+        self.home = root / ".trackvib"
+        self.lock = self.home / "lock"
+        self.logs = self.home / "log"
+        self.venv = self.home / "venv"
+        self.python = self.venv / "bin" / "python3"
+        self.workspace = self.home / "workspace"
+        self.kernels = self.home / "kernels"
+
+    def relative(self, path: Path) -> str:
+        """`path` as the user would type it where they stand."""
+        return os.path.relpath(path)

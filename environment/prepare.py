@@ -1,0 +1,74 @@
+"""The set-up as a table of contents: find ROS 2, do the stages that are not done, give the job's variables."""
+
+import os
+import signal
+import time
+from pathlib import Path
+
+from environment import SetupError, ros as ros2, steps, system
+from environment.places import Places
+from environment.stages import Setup, job_variables, plan
+
+# Separators of PATH and of CMake's lists, and what shells and build files take for something else. Spaces are fine.
+_UNUSABLE = frozenset(":;$`'\"\\\n")
+
+
+def prepare(root: Path) -> dict:
+    """Make the environment of the checkout at `root` ready and return the variables of a job in it.
+
+    A stage is done if its folder holds a stamp with the right key, which is written last. Any other stage, never
+    begun or interrupted or out of date, is wiped and done anew. Raises SetupError if that is not possible.
+    """
+    unusable = _UNUSABLE.intersection(str(root))
+    if unusable:
+        raise SetupError(f"the checkout's path must not contain {' '.join(sorted(unusable))} (it is {root}); move it.")
+    places = Places(root)
+    ros = ros2.find(os.environ)
+    setup = Setup(places, ros, _interpreter(places, ros))
+    stages = plan(setup)
+    if not all(_is_done(stage) for stage in stages):
+        began = time.monotonic()
+        for stop in (signal.SIGTERM, signal.SIGHUP):
+            signal.signal(stop, _interrupt)
+        with steps.only_one(places.lock) as lock:
+            _do(setup, lock)
+        steps.say(f"ready after {time.monotonic() - began:.0f} s")
+    return job_variables(setup, stages[-1].key)
+
+
+def _do(setup: Setup, lock: int) -> None:
+    log = setup.places.logs / "setup"
+    for stage in plan(setup):
+        if _is_done(stage):
+            continue
+        if stage.name == "packages":
+            if not setup.ros.prefix:
+                ros2.check_wheels(setup.python.version)
+            system.require(setup.python, log / "apt.log")
+        with steps.Task(stage.what, stage.takes, log / f"{stage.name}.log", keep=(lock,)) as task:
+            steps.wipe(stage.folder)
+            stage.make(task)
+            stamp = {"key": stage.key, "python": setup.python._asdict(), "ros": str(setup.ros.prefix)}
+            steps.write_stamp(stage.folder, stamp)
+
+
+def _is_done(stage) -> bool:
+    stamp = steps.read_stamp(stage.folder)
+    return stamp is not None and stamp["key"] == stage.key
+
+
+def _interpreter(places: Places, ros: ros2.Ros) -> system.Interpreter:
+    """The Python that the environment was made with, as long as it is there; else the one to make it with.
+
+    So a job does not depend on which `python3` happens to be first on PATH today.
+    """
+    stamp = steps.read_stamp(places.venv)
+    if stamp and stamp["ros"] == str(ros.prefix):
+        python = system.Interpreter(**stamp["python"])
+        if os.path.exists(python.path) and os.path.realpath(places.python) == python.path:
+            return python
+    return system.at(ros2.interpreter(ros)) if ros.prefix else system.running()
+
+
+def _interrupt(*_) -> None:
+    raise KeyboardInterrupt

@@ -1,0 +1,168 @@
+"""The three stages of the set-up: what each depends on, where it lies, how it is made.
+
+A change in this file makes every stage anew: its own text is among what they depend on.
+"""
+
+import hashlib
+import json
+import os
+from pathlib import Path
+from typing import Callable, NamedTuple, Optional
+
+from environment import activate, ros as ros2
+from environment.places import Places
+from environment.ros import Ros
+from environment.steps import Task, fingerprint
+from environment.system import Interpreter
+
+# Files of a package that decide what colcon builds and installs; the contents of all others are live, through links.
+_DECISIVE = {"package.xml", "CMakeLists.txt", "setup.py", "setup.cfg"}
+_INTERFACES = {".msg", ".srv", ".action"}
+
+
+class Setup(NamedTuple):
+    """What the stages are made for."""
+
+    places: Places
+    ros: Ros
+    python: Interpreter
+
+    @property
+    def lock_file(self) -> Path:
+        """All packages, pinned, for this kind of machine."""
+        name = "requirements-own-ros.lock" if self.ros.prefix else "requirements.lock"
+        return self.places.environment / name
+
+
+class Stage(NamedTuple):
+    """One stage. `key` stands for all it depends on; `folder` is its own and is wiped before `make`."""
+
+    name: str
+    what: str
+    takes: str
+    folder: Path
+    key: str
+    make: Callable[[Task], None]
+
+
+def plan(setup: Setup) -> list:
+    """The stages, in order, with the keys that they have to have now."""
+    places, ros, python = setup
+    if ros.prefix:
+        packages = f"Python packages beside ROS 2 Jazzy of {ros.prefix}"
+    else:
+        packages = "ROS 2 Jazzy from Python wheels"
+    venv = fingerprint([str(places.root), list(python), str(ros.prefix), _hash(setup.lock_file), _hash(Path(__file__))])
+    includes = _hash(places.environment / "wheel_includes.cmake")
+    workspace = fingerprint([venv, includes, _workspace_sources(places.sources)])
+    kernels = fingerprint([venv, _python_sources(places.sources / "trackvib_sim" / "trackvib_sim")])
+    return [
+        Stage("packages", f"setting up (once): {packages}", "about 1 min", places.venv, venv,
+              lambda task: _make_venv(setup, task)),
+        Stage("workspace", "building the ROS 2 packages", "about 30 s", places.workspace, workspace,
+              lambda task: _make_workspace(setup, task)),
+        Stage("kernels", "compiling the simulation", "about 1 min", places.kernels, kernels,
+              lambda task: _make_kernels(setup, kernels, task)),
+    ]  # fmt: skip
+
+
+def job_variables(setup: Setup, kernels: str) -> dict:
+    """Variables for a job in the finished environment; `kernels` is the key of the last stage."""
+    env = activate.variables(setup.places, setup.ros, os.environ)
+    # numba looks at the file of a compiled function, not at those of the functions it calls: a folder a key.
+    env["NUMBA_CACHE_DIR"] = str(setup.places.kernels / kernels[:16])
+    return env
+
+
+def _make_venv(setup: Setup, task: Task) -> None:
+    places, ros, python = setup
+    env = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    env["PIP_USER"] = "0"  # a user's configuration may ask for --user, which venv's pip refuses
+    share = ["--system-site-packages"] if ros.prefix else []
+    task.run([python.path, "-I", "-m", "venv", *share, str(places.venv)], env)
+    # The lock is complete, so nothing has to be resolved; -I keeps pip from counting what lies under ~/.local.
+    pip = [str(places.python), "-I", "-m", "pip", "--disable-pip-version-check", "--no-input", "install"]
+    task.run([*pip, "--no-deps", "--progress-bar=off", "-r", str(setup.lock_file)], env)
+
+
+def _make_workspace(setup: Setup, task: Task) -> None:
+    places, ros, python = setup
+    env = activate.before_workspace(places, ros, os.environ)
+    of_ros = {"first": {}, "set": {}}
+    script = ros.prefix and ros.prefix / "setup.bash"
+    if script and script.exists():
+        of_ros = ros2.changes(script, _bare())
+    if not ros.sourced:
+        activate.apply(env, of_ros)
+        activate.put_first(env, "PATH", [str(places.venv / "bin")])
+    # A user's own defaults for colcon could ask for other folders or another kind of build.
+    env.update(COLCON_HOME=str(places.workspace / "colcon"), COLCON_LOG_PATH=str(places.logs / "colcon"))
+    env.pop("COLCON_DEFAULTS_FILE", None)
+    install = places.workspace / "install"
+    cmake = ["-G", "Ninja", f"-DPython3_EXECUTABLE={places.python}", "-DBUILD_TESTING=OFF"]
+    if not ros.prefix:
+        cmake.append(f"-DCMAKE_PROJECT_INCLUDE={places.environment / 'wheel_includes.cmake'}")
+    # Not the `colcon` script: its first line cannot name an interpreter whose path has a space.
+    colcon = [str(places.python), "-c", "import sys; from colcon_core.command import main; sys.exit(main())"]
+    build = ["build", "--symlink-install", "--base-paths", str(places.sources)]
+    build += ["--build-base", str(places.workspace / "build"), "--install-base", str(install)]
+    # One package after the other, so that the log ends with the output of the one that failed.
+    quiet = ["--event-handlers", "console_cohesion+", "console_stderr-", "desktop_notification-", "status-"]
+    task.run([*colcon, *build, "--executor", "sequential", *quiet, "--cmake-args", *cmake], env)
+    _mend_first_lines(install)
+    # The script calls Python without quotes; the virtual environment's may lie in a path with a space.
+    env["COLCON_PYTHON_EXECUTABLE"] = python.path
+    of_workspace = ros2.changes(install / "local_setup.bash", env)
+    captured = {"ros": of_ros, "workspace": of_workspace}
+    activate.captured_path(places).write_text(json.dumps(captured, indent=1))
+
+
+def _make_kernels(setup: Setup, key: str, task: Task) -> None:
+    task.run([str(setup.places.python), "-m", "trackvib_sim.compile_kernels"], job_variables(setup, key))
+
+
+def _mend_first_lines(install: Path) -> None:
+    """Let the nodes' programs start where the checkout's path has a space.
+
+    setuptools then writes `#!"/a path/python3"`, which the system cannot run; `/bin/sh` can, with the words that pip
+    uses: a string to Python, a command to the shell.
+    """
+    for program in install.glob("*/lib/*/*"):
+        if program.is_file() and program.read_bytes().startswith(b'#!"'):
+            first, rest = program.read_text().split("\n", 1)
+            interpreter = first[2:]
+            program.write_text(f"#!/bin/sh\n'''exec' {interpreter} \"$0\" \"$@\"\n' '''\n{rest}")
+
+
+def _bare() -> dict:
+    """Variables of a shell in which nothing was sourced."""
+    return {"PATH": "/usr/local/bin:/usr/bin:/bin", "HOME": os.environ.get("HOME", "/")}
+
+
+def _workspace_sources(folder: Path) -> list:
+    """Every file that colcon sees, with a hash where its contents decide; no modules and no tests: those are live."""
+    found = []
+    for parent, folders, files in os.walk(folder):
+        folders[:] = sorted(name for name in folders if not name.startswith((".", "__")) and name != "test")
+        if "__init__.py" in files and "package.xml" not in files:
+            folders.clear()
+            continue
+        for name in sorted(files):
+            path = Path(parent, name)
+            decisive = name in _DECISIVE or path.suffix in _INTERFACES
+            if decisive or path.suffix != ".pyc":
+                found.append([str(path.relative_to(folder)), _hash(path) if decisive else None])
+    return found
+
+
+def _python_sources(folder: Path) -> list:
+    """Every module under `folder`, with its hash."""
+    return [[str(path.relative_to(folder)), _hash(path)] for path in sorted(folder.rglob("*.py"))]
+
+
+def _hash(path: Path) -> Optional[str]:
+    """Hash of a file's contents, None if there is none (a dangling link, a file that is gone again)."""
+    try:
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    except OSError:
+        return None

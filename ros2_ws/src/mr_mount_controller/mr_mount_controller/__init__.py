@@ -1,0 +1,1 @@
+"""Controller of magnetorheological powertrain mounts. Knows accelerations and currents, not the simulator."""

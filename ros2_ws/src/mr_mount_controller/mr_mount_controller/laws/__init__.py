@@ -1,0 +1,44 @@
+"""Control laws: one a file, and the contract they fulfil. No ROS."""
+
+from importlib import import_module
+from importlib.metadata import entry_points
+
+from ..parameters import ParameterError
+from .base import ControlLaw
+
+GROUP = "mr_mount_controller.laws"
+
+
+def known_laws():
+    """Return the names of the laws that installed packages offer, sorted."""
+    return sorted({entry.name for entry in entry_points(group=GROUP)})
+
+
+def find_law(name):
+    """Return the class of a control law.
+
+    Parameters
+    ----------
+    name : str
+        A name from `known_laws`, or `package.module:Class`.
+
+    Raises
+    ------
+    ParameterError
+        There is no such law, or it is not a `ControlLaw`.
+    """
+    for entry in entry_points(group=GROUP):
+        if entry.name == name:
+            return entry.load()
+    module, _, attribute = name.partition(":")
+    if not attribute:
+        raise ParameterError(
+            f"parameter 'law' is {name!r}, accepted is one of {', '.join(known_laws())}, or package.module:Class"
+        )
+    try:
+        law = getattr(import_module(module), attribute)
+    except (ImportError, AttributeError) as error:
+        raise ParameterError(f"parameter 'law' is {name!r}, which cannot be loaded: {error}") from None
+    if not (isinstance(law, type) and issubclass(law, ControlLaw)):
+        raise ParameterError(f"parameter 'law' is {name!r}, which is not a subclass of {ControlLaw.__name__}")
+    return law

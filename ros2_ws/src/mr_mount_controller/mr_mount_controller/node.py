@@ -1,0 +1,109 @@
+"""The controller node: answers each pair of Imu messages with the coil current that a control law chooses."""
+
+import sys
+import time
+
+from rclpy.duration import Duration
+from sensor_msgs.msg import Imu
+from trackvib_msgs.msg import CoilCurrent
+
+from .laws import find_law
+from .laws.base import LawError, Sample, answer
+from .node_support import LOOP_QOS, LoopNode, NodeError, run_node
+from .parameters import Parameter
+
+PARAMETERS = (
+    Parameter("law", "passive", "Control law: a known name, or package.module:Class."),
+    Parameter("sample_rate", 1000, "Rate of the Imu messages.", "Hz", 10, 10000),
+    Parameter("wait_for_recorder", False, "Answer nothing before a recorder listens to the currents, too."),
+)
+NANO = 1_000_000_000
+
+
+class ControllerNode(LoopNode):
+    """Runs one law on the Imu messages of chassis and powertrain that carry the same stamp."""
+
+    def __init__(self):
+        super().__init__("controller", PARAMETERS)
+        law = find_law(self.settings["law"])
+        values = self.declare_more(law.parameters)
+        self._period = NANO // self.settings["sample_rate"]
+        self._law = law(self._period / NANO, **values)
+        self._chassis = self._powertrain = None  # latest messages
+        self._last = None  # stamp answered last, ns
+        self._gaps = 0
+        self._answer = CoilCurrent()
+        self._currents = self.create_publisher(CoilCurrent, "coil_current", LOOP_QOS)
+        self.create_subscription(Imu, "chassis/imu", self._on_chassis, LOOP_QOS)
+        self.create_subscription(Imu, "powertrain/imu", self._on_powertrain, LOOP_QOS)
+
+    def run(self):
+        """Say what runs, wait for a simulator or vehicle, answer until told to stop."""
+        self.get_logger().info(f"law '{self.settings['law']}', waiting for accelerations")
+        super().run()
+
+    def close(self):
+        """Let the last answer arrive, say what was done."""
+        self._currents.wait_for_all_acked(Duration(seconds=1))
+        if self._gaps:
+            self.get_logger().warning(f"{self._gaps} gaps between the stamps of the samples")
+
+    def _on_chassis(self, message):
+        self._chassis = message
+        self._pair()
+
+    def _on_powertrain(self, message):
+        self._powertrain = message
+        self._pair()
+
+    def _pair(self):
+        chassis, powertrain = self._chassis, self._powertrain
+        if chassis is None or powertrain is None or chassis.header.stamp != powertrain.header.stamp:
+            return
+        self._chassis = self._powertrain = None
+        stamp = chassis.header.stamp.sec * NANO + chassis.header.stamp.nanosec
+        if self._last is None:
+            self._wait_for_listeners()
+        elif stamp <= self._last:
+            self.get_logger().info("the samples start anew: law reset")
+            self._law.reset()
+        elif stamp != self._last + self._period:
+            self._note_gap(stamp)
+        self._last = stamp
+        sample = Sample(
+            stamp / NANO,
+            _xyz(chassis.linear_acceleration),
+            _xyz(chassis.angular_velocity),
+            _xyz(powertrain.linear_acceleration),
+            _xyz(powertrain.angular_velocity),
+        )
+        try:
+            currents = answer(self._law, sample)
+        except LawError as error:
+            raise NodeError(str(error)) from None
+        self._answer.header.stamp = self._answer.sample_stamp = chassis.header.stamp
+        self._answer.current = currents
+        self._currents.publish(self._answer)
+
+    def _note_gap(self, stamp):
+        if not self._gaps:
+            self.get_logger().warning(
+                f"samples are {(stamp - self._last) / NANO} s apart, expected {self._period / NANO} s (sample_rate)"
+            )
+        self._gaps += 1
+
+    def _wait_for_listeners(self):
+        self.get_logger().info("first sample received, answering")
+        wanted = 1 + self.settings["wait_for_recorder"]
+        # no callbacks are served here: the sample at hand is the one to answer
+        while self._currents.get_subscription_count() < wanted and not self.stopping():
+            time.sleep(0.01)
+
+
+def _xyz(vector):
+    return (vector.x, vector.y, vector.z)
+
+
+def main(args=None):
+    """Run the node."""
+    sys.exit(run_node(ControllerNode, args))

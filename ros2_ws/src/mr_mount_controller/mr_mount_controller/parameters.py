@@ -1,0 +1,54 @@
+"""What a parameter is: one description, from which nodes, command line and documents take name, unit and range."""
+
+from dataclasses import dataclass
+from math import isfinite
+
+
+class ParameterError(ValueError):
+    """A parameter that cannot be used; the message names it, its value and what is accepted."""
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A named value of the type of its default.
+
+    Numbers lie in [low, high]; strings, where `choices` is given, are one of them.
+    """
+
+    name: str
+    default: bool | int | float | str | list
+    description: str
+    unit: str = ""
+    low: float | None = None
+    high: float | None = None
+    choices: tuple = ()
+
+    @property
+    def accepted(self):
+        """What is accepted, in words."""
+        if self.choices:
+            return "one of " + ", ".join(self.choices)
+        kind = {bool: "true or false", int: "a whole number", float: "a number", str: "a text", list: "a list of texts"}
+        words = kind[type(self.default)]
+        if isinstance(self.default, float):
+            words += " (written with a point, as 1.0)"
+        if self.low is not None:
+            words += f" from {self.low:g} to {self.high:g}"
+        return f"{words} {self.unit}".rstrip()
+
+    def check(self, value):
+        """Return `value` if it is acceptable.
+
+        Raises
+        ------
+        ParameterError
+            It is not.
+        """
+        good = type(value) is type(self.default)
+        if good and self.choices:
+            good = value in self.choices
+        if good and self.low is not None:
+            good = isfinite(value) and self.low <= value <= self.high
+        if not good:
+            raise ParameterError(f"parameter '{self.name}' is {value!r}, accepted is {self.accepted}")
+        return value

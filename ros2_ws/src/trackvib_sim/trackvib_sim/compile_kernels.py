@@ -1,0 +1,24 @@
+"""Compile every kernel once, so that no run pays for it: `python -m trackvib_sim.compile_kernels`."""
+
+from mr_mount_controller.laws.passive import Passive
+
+from .installed import default_vehicle_file
+from .road.iso8608 import Iso8608Road
+from .simulation.closed_loop import run_closed_loop
+from .simulation.settings import NANO, Rates, RunSettings
+from .simulation.simulation import Simulation
+from .vehicle.parameters import read_vehicle
+from .vehicle.system import Operation
+
+
+def main():
+    """Run the closed loop for two periods and look at a mount."""
+    vehicle, _ = read_vehicle(default_vehicle_file())
+    settings = RunSettings(Operation(10.0, 1650.0, False), Rates(), 1.0)
+    simulation = Simulation(vehicle, settings)
+    run_closed_loop(simulation, Iso8608Road("E", 1, 8.0, 8.0), Passive(settings.rates.period / NANO), 2)
+    simulation.mount(0)
+
+
+if __name__ == "__main__":
+    main()

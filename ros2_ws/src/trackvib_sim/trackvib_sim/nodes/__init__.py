@@ -1,0 +1,1 @@
+"""The nodes: the only place here that imports rclpy."""

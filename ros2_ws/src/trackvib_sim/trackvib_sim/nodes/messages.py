@@ -1,0 +1,84 @@
+"""From records of the simulation to messages; each translator keeps one message and fills it anew."""
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Imu
+from trackvib_msgs.msg import MountState
+
+from ..simulation.settings import NANO
+from . import topics
+
+
+def set_stamp(message, nanoseconds):
+    """Write simulated time [ns] to a message's header."""
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(nanoseconds, NANO)
+
+
+def set_vector(vector, values):
+    """Write three numbers to a Vector3 or Point."""
+    vector.x, vector.y, vector.z = values
+
+
+class ImuMessage:
+    """Specific force and angular velocity of one sensor (REP-145); attitude is not measured."""
+
+    def __init__(self, frame):
+        self._message = Imu()
+        self._message.header.frame_id = frame
+        self._message.orientation_covariance[0] = -1.0
+
+    def fill(self, stamp, specific_force, rate):
+        """Return the message; vectors of 3 floats in body axes, m/s^2 and rad/s."""
+        set_stamp(self._message, stamp)
+        set_vector(self._message.linear_acceleration, specific_force)
+        set_vector(self._message.angular_velocity, rate)
+        return self._message
+
+
+class MountMessage:
+    """State of both mounts."""
+
+    def __init__(self):
+        self._message = MountState()
+        self._message.header.frame_id = topics.HULL_FRAME
+
+    def fill(self, stamp, mounts):
+        """Return the message; `mounts` holds two results of `Simulation.mount`."""
+        m = self._message
+        set_stamp(m, stamp)
+        for i, (current, stiffness, damping, deflection, velocity, force, power) in enumerate(mounts):
+            m.current[i], m.stiffness[i], m.damping[i], m.dissipated_power[i] = current, stiffness, damping, power
+            set_vector(m.deflection[i], deflection)
+            set_vector(m.velocity[i], velocity)
+            set_vector(m.force[i], force)
+        return m
+
+
+class OdometryMessage:
+    """Pose of the hull on the road and its velocity in its own axes."""
+
+    def __init__(self):
+        self._message = Odometry()
+        self._message.header.frame_id = topics.ROAD_FRAME
+        self._message.child_frame_id = topics.HULL_FRAME
+
+    def fill(self, stamp, state, velocity, rate):
+        """Return the message for a `rui.tree.TreeState`; velocity and rate of the hull in its own axes."""
+        m = self._message
+        set_stamp(m, stamp)
+        set_vector(m.pose.pose.position, state.position.tolist())
+        o = m.pose.pose.orientation
+        o.w, o.x, o.y, o.z = state.attitude.tolist()
+        set_vector(m.twist.twist.linear, velocity)
+        set_vector(m.twist.twist.angular, rate)
+        return m
+
+
+def diagnostics(stamp, level, text, values):
+    """Return a DiagnosticArray with the one status "simulator"; `values` is written out as text."""
+    levels = {"ok": DiagnosticStatus.OK, "warning": DiagnosticStatus.WARN, "error": DiagnosticStatus.ERROR}
+    status = DiagnosticStatus(level=levels[level], name="simulator", message=text, hardware_id="trackvib")
+    status.values = [KeyValue(key=key, value=str(value)) for key, value in values.items()]
+    message = DiagnosticArray(status=[status])
+    set_stamp(message, stamp)
+    return message

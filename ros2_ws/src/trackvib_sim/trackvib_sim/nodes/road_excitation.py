@@ -1,0 +1,45 @@
+"""The road-excitation node: streams the roughness profile ahead of the vehicle."""
+
+import sys
+
+from mr_mount_controller.node_support import LATCHED_QOS, ROAD_QOS, LoopNode, run_node
+from mr_mount_controller.parameters import Parameter
+from nav_msgs.msg import Odometry
+from trackvib_msgs.msg import RoadProfile
+
+from ..road.feeder import RoadFeeder
+from ..road.iso8608 import CLASSES, Iso8608Road
+from .topics import ODOMETRY, ROAD_FRAME, ROAD_PROFILE
+
+PARAMETERS = (
+    Parameter("road_class", "E", "Class of the road by ISO 8608.", choices=tuple(CLASSES)),
+    Parameter("seed", 1, "Seed of the profile; the same seed gives the same road.", "", 0, 2**31 - 1),
+    Parameter("level_until", 8.0, "Distance up to which the road is level.", "m", -1000.0, 1e6),
+    Parameter("fade", 8.0, "Distance over which the roughness then fades in.", "m", 0.1, 1000.0),
+    Parameter("horizon", 50.0, "Distance ahead of the vehicle that is always published.", "m", 10.0, 200.0),
+)
+
+
+class RoadExcitationNode(LoopNode):
+    """Follows the vehicle's odometry and publishes the patches of road that it will need."""
+
+    def __init__(self):
+        super().__init__("road_excitation", PARAMETERS)
+        s = self.settings
+        road = Iso8608Road(s["road_class"], s["seed"], s["level_until"], s["fade"])
+        self._feeder = RoadFeeder(road, s["horizon"])
+        self._patches = self.create_publisher(RoadProfile, ROAD_PROFILE, ROAD_QOS)
+        self.create_subscription(Odometry, ODOMETRY, self._on_odometry, LATCHED_QOS)
+        self.get_logger().info(f"road of class {s['road_class']}, seed {s['seed']}; waiting for a vehicle's odometry")
+
+    def _on_odometry(self, odometry):
+        for start, spacing, heights in self._feeder.patches(odometry.pose.pose.position.x):
+            patch = RoadProfile(start=start, spacing=spacing, left=heights[0], right=heights[1])
+            patch.header.stamp = odometry.header.stamp
+            patch.header.frame_id = ROAD_FRAME
+            self._patches.publish(patch)
+
+
+def main(args=None):
+    """Run the node."""
+    sys.exit(run_node(RoadExcitationNode, args))

@@ -1,0 +1,254 @@
+"""The simulator node: steps the vehicle, publishes what its sensors measure, and takes the currents that answer."""
+
+import sys
+import time
+
+from mr_mount_controller.node_support import CLOCK_QOS, LATCHED_QOS, LOOP_QOS, ROAD_QOS, LoopNode, NodeError, run_node
+from mr_mount_controller.parameters import ParameterError
+from diagnostic_msgs.msg import DiagnosticArray
+from nav_msgs.msg import Odometry
+from rclpy.duration import Duration
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import Imu
+from std_msgs.msg import String
+from trackvib_msgs.msg import CoilCurrent, MountState, RoadProfile
+
+from ..installed import default_vehicle_file
+from ..simulation.exchange import Exchange
+from ..simulation.settings import NANO, Rates, RunSettings
+from ..simulation.simulation import CHASSIS, POWERTRAIN, RunFailed, Simulation
+from ..vehicle.coil import usable_current
+from ..vehicle.equilibrium import NoEquilibrium
+from ..vehicle.parameters import VehicleFileError, read_vehicle
+from ..vehicle.system import Operation
+from . import topics
+from .messages import ImuMessage, MountMessage, OdometryMessage, diagnostics
+from .simulator_parameters import PARAMETERS
+from .timing import PhaseClock
+
+_FLUSH = Duration(seconds=2)  # for the last messages to arrive
+
+
+class SimulatorNode(LoopNode):
+    """Lock-step or real-time master of the closed loop."""
+
+    def __init__(self):
+        super().__init__("simulator", PARAMETERS)
+        s = self.settings
+        self._lockstep = s["pace"] == "lockstep"
+        vehicle, text = self._read_vehicle()
+        self._simulation = self._prepare(vehicle)
+        self._period = self._simulation.settings.rates.period
+        self._exchange = Exchange(s["passive_current"], usable_current(vehicle), self._lockstep)
+        self._clock = PhaseClock("physics", "publishing", "waiting")
+        self._silent = False  # no answer came in time; the loop runs on without waiting
+        self._heard = False  # some answer came since
+        self._state = "waiting"
+
+        self._imus = (ImuMessage(topics.CHASSIS_FRAME), ImuMessage(topics.POWERTRAIN_FRAME))
+        self._mounts, self._odometry, self._time = MountMessage(), OdometryMessage(), Clock()
+        self._imu_out = (
+            self.create_publisher(Imu, topics.CHASSIS_IMU, LOOP_QOS),
+            self.create_publisher(Imu, topics.POWERTRAIN_IMU, LOOP_QOS),
+        )
+        self._mount_out = self.create_publisher(MountState, topics.MOUNT_STATE, LOOP_QOS)
+        self._odometry_out = self.create_publisher(Odometry, topics.ODOMETRY, LATCHED_QOS)
+        self._clock_out = self.create_publisher(Clock, topics.CLOCK, CLOCK_QOS)
+        self._diagnostics_out = self.create_publisher(DiagnosticArray, topics.DIAGNOSTICS, LOOP_QOS)
+        self._vehicle_out = self.create_publisher(String, topics.VEHICLE_DESCRIPTION, LATCHED_QOS)
+        self._vehicle_out.publish(String(data=text))
+        self._answers = self.create_subscription(CoilCurrent, topics.COIL_CURRENT, self._on_answer, LOOP_QOS)
+        self.create_subscription(RoadProfile, topics.ROAD_PROFILE, self._on_road, ROAD_QOS)
+
+    def run(self):
+        """Wait for the partners, then run period after period until the duration is over or a stop is asked for."""
+        self._publish_odometry()
+        self._wait_for_partners()
+        periods = round(self.settings["duration"] * self._simulation.settings.rates.control)
+        start = time.perf_counter()
+        self._state = "running"
+        while not self.stopping() and (periods == 0 or self._simulation.periods < periods):
+            self._one_period(start)
+        if not self.stopping():
+            self._state = "finished"
+            self.get_logger().info(self._summary())
+
+    def close(self):
+        """Say how it ended and let the last messages arrive."""
+        if self._state == "running":
+            self._state = "stopped"
+        self._publish_diagnostics()
+        for publisher in (*self._imu_out, self._mount_out, self._odometry_out, self._diagnostics_out):
+            publisher.wait_for_all_acked(_FLUSH)
+
+    def _one_period(self, start):
+        self._wait_for_road()
+        self._clock.start("physics")
+        try:
+            self._simulation.advance(self._exchange.currents)
+        except RunFailed as failure:
+            self._state = "failed"
+            raise NodeError(f"run failed: {failure}") from None
+        self._clock.start("publishing")
+        self._publish_sample()
+        self._clock.start("waiting")
+        if self._lockstep:
+            self._wait_for_answer()
+        else:
+            self._wait_for_wall_clock(start)
+        self._clock.stop()
+
+    # --- waiting ---
+
+    def _wait_for_partners(self):
+        listeners = 1 + self.settings["wait_for_recorder"]
+        missing = {
+            "a road on " + topics.ROAD_PROFILE: self._simulation.road_is_enough,
+            "a controller's currents on " + topics.COIL_CURRENT: lambda: self._answers.get_publisher_count() > 0,
+            "listeners to " + topics.CHASSIS_IMU: lambda: self._imu_out[0].get_subscription_count() >= listeners,
+            "listeners to " + topics.POWERTRAIN_IMU: lambda: self._imu_out[1].get_subscription_count() >= listeners,
+        }
+        if self.settings["wait_for_recorder"]:
+            for publisher, name in (
+                (self._mount_out, topics.MOUNT_STATE),
+                (self._diagnostics_out, topics.DIAGNOSTICS),
+                (self._clock_out, topics.CLOCK),
+            ):
+                missing["a recorder of " + name] = lambda publisher=publisher: publisher.get_subscription_count() > 0
+        self.get_logger().info("waiting for " + ", ".join(missing))
+        self.spin_until(lambda: all(there() for there in missing.values()))
+        if self.count_publishers(topics.CHASSIS_IMU) > 1:
+            raise NodeError(f"another node publishes {topics.CHASSIS_IMU} in this domain; set ROS_DOMAIN_ID or a namespace")
+        if not self.stopping():
+            self.get_logger().info("all partners are there, running")
+
+    def _wait_for_road(self):
+        if self._simulation.road_is_enough():
+            return
+        where = f"at {self._simulation.distance:.1f} m (t = {self._simulation.time / NANO:.3f} s)"
+        if not self._lockstep:
+            self._state = "failed"
+            raise NodeError(f"no road ahead {where}")
+        self.get_logger().warning(f"no road ahead {where}, waiting for {topics.ROAD_PROFILE}")
+        self._publish_odometry()
+        self.spin_until(self._simulation.road_is_enough)
+
+    def _wait_for_answer(self):
+        answered = lambda: self._exchange.answered  # noqa: E731
+        if self._silent and not self._heard:
+            self.spin_once(0.0)
+            if not answered():
+                self._exchange.counts["silent_periods"] += 1
+            return
+        self._silent = self._heard = False
+        if not self.spin_until(answered, self.settings["answer_timeout"]) and not self.stopping():
+            self._exchange.counts["silent_periods"] += 1
+            self._on_silence(f"no answer to the sample at t = {self._simulation.time / NANO:.3f} s")
+
+    def _wait_for_wall_clock(self, start):
+        due = start + self._simulation.time / NANO / self.settings["real_time_factor"]
+        while (left := due - time.perf_counter()) > 0.0 and not self.stopping():
+            self.spin_once(left)
+        self.spin_once(0.0)
+        timeout = self.settings["answer_timeout"] * self.settings["real_time_factor"]
+        silent = self._simulation.time - self._exchange.answered_stamp > timeout * NANO
+        self._exchange.counts["silent_periods"] += silent
+        if silent and not self._silent:
+            self._on_silence(f"no answer since t = {self._exchange.answered_stamp / NANO:.3f} s")
+        self._silent = silent
+
+    def _on_silence(self, what):
+        policy = self.settings["on_silence"]
+        self._silent, self._heard = True, False
+        if policy == "stop":
+            self._state = "failed"
+            raise NodeError(f"{what}; on_silence is 'stop'")
+        if policy == "passive":
+            self._exchange.fall_back(self.settings["passive_current"])
+        action = "holding the last current" if policy == "hold" else "falling back to the passive current"
+        self.get_logger().warning(f"{what}; {action} until the controller is heard again")
+        self._publish_diagnostics()
+
+    # --- messages ---
+
+    def _on_answer(self, message):
+        self._heard = True
+        stamp = message.sample_stamp.sec * NANO + message.sample_stamp.nanosec
+        self._exchange.offer(stamp, message.current)
+
+    def _on_road(self, patch):
+        try:
+            self._simulation.road.add(patch.start, patch.spacing, patch.left, patch.right)
+        except ValueError as error:
+            self.get_logger().error(f"road patch refused: {error}")
+
+    def _publish_sample(self):
+        simulation = self._simulation
+        stamp, rates = simulation.time, simulation.settings.rates
+        force, rate = simulation.sample.specific_force.tolist(), simulation.sample.rate.tolist()
+        self._exchange.publish(stamp)
+        for sensor in (CHASSIS, POWERTRAIN):
+            self._imu_out[sensor].publish(self._imus[sensor].fill(stamp, force[sensor], rate[sensor]))
+        self._mount_out.publish(self._mounts.fill(stamp, (simulation.mount(0), simulation.mount(1))))
+        if simulation.periods % (rates.control // rates.odometry) == 0:
+            self._publish_odometry()
+        if simulation.periods % (rates.control // 10) == 0:
+            self._publish_diagnostics()
+
+    def _publish_odometry(self):
+        simulation = self._simulation
+        velocity, rate = simulation.hull_velocity()
+        self._odometry_out.publish(
+            self._odometry.fill(simulation.time, simulation.state.tree, velocity, rate)
+        )
+        self._time.clock.sec, self._time.clock.nanosec = divmod(simulation.time, NANO)
+        self._clock_out.publish(self._time)
+
+    def _publish_diagnostics(self):
+        counts = self._exchange.counts
+        level = "ok"
+        if self._silent or counts["saturated"]:
+            level = "warning"
+        if self._state == "failed":
+            level = "error"
+        values = {
+            "state": self._state,
+            "time": self._simulation.time / NANO,
+            "duration": self.settings["duration"],
+            "real_time_factor": round(self._clock.factor(self._simulation.time / NANO), 3),
+            **counts,
+            **{f"{phase}_us_per_period": cost for phase, cost in self._clock.costs().items()},
+        }
+        self._diagnostics_out.publish(diagnostics(self._simulation.time, level, self._state, values))
+
+    def _summary(self):
+        simulated = self._simulation.time / NANO
+        costs = ", ".join(f"{phase} {cost:.0f} us" for phase, cost in self._clock.costs().items())
+        return f"{simulated:g} s simulated at {self._clock.factor(simulated):.2f} x real time; a period: {costs}"
+
+    # --- preparing ---
+
+    def _read_vehicle(self):
+        try:
+            return read_vehicle(self.settings["vehicle_file"] or default_vehicle_file())
+        except VehicleFileError as error:
+            raise ParameterError(f"simulator: parameter 'vehicle_file': {error}") from None
+
+    def _prepare(self, vehicle):
+        s = self.settings
+        low, high = vehicle.engine.speed_range
+        if s["engine_speed"] != 0.0 and not low <= s["engine_speed"] <= high:
+            raise ParameterError(
+                f"simulator: parameter 'engine_speed' is {s['engine_speed']} r/min, accepted is 0 or {low:g} to {high:g}"
+            )
+        try:
+            rates = Rates(s["physics_rate"], s["control_rate"], s["odometry_rate"])
+            operation = Operation(s["speed"], s["engine_speed"], s["engine_excitation"] == "displacement")
+            return Simulation(vehicle, RunSettings(operation, rates, s["passive_current"]))
+        except (NoEquilibrium, ValueError) as error:
+            raise ParameterError(f"simulator: {error}") from None
+
+
+def main(args=None):
+    """Run the node."""
+    sys.exit(run_node(SimulatorNode, args))

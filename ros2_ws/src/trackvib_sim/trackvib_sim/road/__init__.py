@@ -1,0 +1,1 @@
+"""Road profiles. No vehicle, no ROS."""

@@ -1,0 +1,25 @@
+"""Cuts a road into patches and hands them out ahead of the vehicle."""
+
+from .iso8608 import SPACING
+
+PATCH = 100  # samples
+BEHIND = 20.0  # m of road behind the vehicle's origin, for the rear wheels
+
+
+class RoadFeeder:
+    """Knows what has been handed out already; a vehicle that jumps back is fed anew from there."""
+
+    def __init__(self, road, horizon):
+        self._road = road
+        self._horizon = horizon
+        self._next = self._first = None  # numbers of patches
+
+    def patches(self, distance):
+        """Yield (start, spacing, heights (2, n)) of the patches still missing around a distance, all in m."""
+        behind = int((distance - BEHIND) // (PATCH * SPACING))
+        if self._next is None or behind < self._first or behind > self._next:
+            self._first = self._next = behind
+        while self._next * PATCH * SPACING < distance + self._horizon:
+            first = self._next * PATCH
+            yield first * SPACING, SPACING, self._road.heights(first, PATCH)
+            self._next += 1

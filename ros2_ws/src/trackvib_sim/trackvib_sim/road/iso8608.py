@@ -1,0 +1,80 @@
+"""Random road profiles of ISO 8608 by superposition of harmonics, reproducible from (seed, distance).
+
+[ISO8608] gives the displacement power spectral density G_d(n) = G_d(n0) (n / n0)^-2 with n0 = 0.1 1/m and the geometric
+means G_d(n0) = 16e-6 * 4^k m^3 for the classes A (k = 0) to H (k = 7). [Tao2025] sums harmonics of it with random phase.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..rui.compiled import kernel
+
+CLASSES = "ABCDEFGH"
+REFERENCE_FREQUENCY = 0.1  # 1/m
+LOWEST, HIGHEST = 0.011, 2.83  # 1/m, the standard's range
+HARMONICS = 1000
+COHERENCE_LENGTH = 1.4  # m; the two tracks' coherence falls as exp(-1.4 n) (assumed, tracks 2.8 m apart)
+SPACING = 0.05  # m
+
+
+def roughness(road_class, frequency):
+    """Return the one-sided displacement PSD G_d(n) [m^3] of a road class at spatial frequencies [1/m]."""
+    return 16e-6 * 4.0 ** CLASSES.index(road_class) * (np.asarray(frequency) / REFERENCE_FREQUENCY) ** -2.0
+
+
+def coherence(frequency):
+    """Return the coherence |G_lr| / sqrt(G_ll G_rr) between left and right at spatial frequencies [1/m]."""
+    return np.exp(-COHERENCE_LENGTH * np.asarray(frequency))
+
+
+@dataclass(frozen=True)
+class Iso8608Road:
+    """A road of one class without end, level before `level_until` and then faded in over `fade` [m].
+
+    Sample i lies at distance i * `SPACING`. Harmonics lie one in each of `HARMONICS` logarithmic bands, at a random
+    place of it, so that the profile has no period.
+    """
+
+    road_class: str
+    seed: int
+    level_until: float
+    fade: float
+
+    def heights(self, first, count):
+        """Return the heights (2, count) [m], left and right, of the samples `first` ... `first + count - 1`.
+
+        The result for a sample does not depend on which patch it is asked in, to the last bit.
+        """
+        heights = np.empty((2, count))
+        _superpose(heights, first, SPACING, *self._harmonics, self.level_until, self.fade)
+        return heights
+
+    @cached_property
+    def _harmonics(self):
+        random = np.random.default_rng(self.seed)
+        edges = np.geomspace(LOWEST, HIGHEST, HARMONICS + 1)
+        frequency = edges[:-1] + (edges[1:] - edges[:-1]) * random.random(HARMONICS)
+        amplitude = np.sqrt(2.0 * roughness(self.road_class, frequency) * (edges[1:] - edges[:-1]))
+        common = coherence(frequency)
+        # each side is a shared part and one of its own: G_lr = coherence * G, G_ll = G_rr = G
+        weights = amplitude * np.stack((np.sqrt(common), np.sqrt(1.0 - common)))
+        phases = 2.0 * np.pi * random.random((3, HARMONICS))
+        return frequency, weights, phases
+
+
+@kernel
+def _superpose(heights, first, spacing, frequency, weights, phases, level_until, fade):
+    for i in range(heights.shape[1]):
+        distance = (first + i) * spacing
+        left, right = 0.0, 0.0
+        for h in range(frequency.size):
+            angle = 2.0 * np.pi * frequency[h] * distance
+            shared = weights[0, h] * np.cos(angle + phases[0, h])
+            left += shared + weights[1, h] * np.cos(angle + phases[1, h])
+            right += shared + weights[1, h] * np.cos(angle + phases[2, h])
+        progress = min(max((distance - level_until) / fade, 0.0), 1.0)
+        window = 0.5 - 0.5 * np.cos(np.pi * progress)
+        heights[0, i] = window * left
+        heights[1, i] = window * right

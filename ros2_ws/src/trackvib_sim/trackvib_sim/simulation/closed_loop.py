@@ -1,0 +1,59 @@
+"""The closed loop in one process: the same simulation, road and law as the nodes run, without any transport."""
+
+from typing import NamedTuple
+
+import numpy as np
+from mr_mount_controller.laws.base import Sample, answer
+
+from ..road.feeder import RoadFeeder
+from .exchange import Exchange
+from .settings import NANO
+from .simulation import CHASSIS, POWERTRAIN
+
+HORIZON = 50.0  # m
+
+
+class Record(NamedTuple):
+    """What a run measured, one row a control period."""
+
+    stamp: np.ndarray  # (k,) ns
+    specific_force: np.ndarray  # (k, 2, 3) m/s^2, chassis and powertrain
+    rate: np.ndarray  # (k, 2, 3) rad/s
+    current: np.ndarray  # (k, 2) demanded in answer to the row's sample, A
+
+
+def run_closed_loop(simulation, road, law, periods):
+    """Run `simulation.Simulation` on a road under a control law for a number of control periods.
+
+    Bit-identical to what the nodes do in lock-step with the same vehicle, settings, road and law, on one machine.
+
+    Raises
+    ------
+    RunFailed, LawError
+        As the simulation and the law do.
+    """
+    feeder = RoadFeeder(road, HORIZON)
+    settings = simulation.settings
+    exchange = Exchange(settings.passive_current, (-np.inf, np.inf))
+    record = Record(
+        np.zeros(periods, dtype=np.int64), np.zeros((periods, 2, 3)), np.zeros((periods, 2, 3)), np.zeros((periods, 2))
+    )
+    for k in range(periods):
+        for start, spacing, heights in feeder.patches(simulation.distance):
+            simulation.road.add(start, spacing, *heights)
+        simulation.advance(exchange.currents)
+        force, rate = simulation.sample
+        sample = Sample(
+            simulation.time / NANO,
+            tuple(force[CHASSIS].tolist()),
+            tuple(rate[CHASSIS].tolist()),
+            tuple(force[POWERTRAIN].tolist()),
+            tuple(rate[POWERTRAIN].tolist()),
+        )
+        exchange.publish(simulation.time)
+        exchange.offer(simulation.time, answer(law, sample))
+        record.stamp[k] = simulation.time
+        record.specific_force[k] = force
+        record.rate[k] = rate
+        record.current[k] = exchange.currents
+    return record

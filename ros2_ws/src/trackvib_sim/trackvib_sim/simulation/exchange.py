@@ -1,0 +1,69 @@
+"""Which current answers which sample: the rules of the lock-step, without any transport."""
+
+from collections import Counter
+
+import numpy as np
+
+OUTCOMES = ("accepted", "late", "duplicate", "early", "not_finite", "saturated", "silent_periods")
+
+
+class Exchange:
+    """Judges each offered current against the samples that were published.
+
+    In lock-step only the answer to the latest sample is accepted. In real time (`lockstep=False`) an answer to an
+    older sample is used, too, as long as it is newer than the last one used; it counts as late all the same.
+
+    Attributes
+    ----------
+    currents : (2,) array
+        The currents in force [A].
+    counts : Counter
+        How often each of `OUTCOMES` happened. A current outside `usable` [A] is accepted and counts as saturated as
+        well: driver or mounts will cut it.
+    """
+
+    def __init__(self, initial, usable, lockstep=True):
+        self.currents = np.full(2, float(initial))
+        self.counts = Counter(dict.fromkeys(OUTCOMES, 0))
+        self._usable = usable
+        self._lockstep = lockstep
+        self._sample = 0  # stamp of the latest sample, ns
+        self._answered = 0  # stamp of the latest sample that was answered, ns
+
+    @property
+    def answered_stamp(self):
+        """Stamp of the latest sample that was answered [ns]."""
+        return self._answered
+
+    @property
+    def answered(self):
+        """Whether the latest sample has its answer."""
+        return self._answered == self._sample
+
+    def publish(self, stamp):
+        """Note that a sample with this stamp [ns] is out."""
+        self._sample = stamp
+
+    def offer(self, stamp, currents):
+        """Judge the answer (2,) [A] to the sample with this stamp [ns]; returns one of `OUTCOMES`."""
+        outcome = self._judge(stamp, currents)
+        self.counts[outcome] += 1
+        if outcome == "accepted" or (outcome == "late" and not self._lockstep and stamp > self._answered):
+            self._answered = stamp
+            self.currents[:] = currents
+            if min(currents) < self._usable[0] or max(currents) > self._usable[1]:
+                self.counts["saturated"] += 1
+        return outcome
+
+    def fall_back(self, current):
+        """Put a current [A] in force without an answer."""
+        self.currents[:] = current
+
+    def _judge(self, stamp, currents):
+        if stamp > self._sample:
+            return "early"
+        if not np.isfinite(currents).all():
+            return "not_finite"
+        if stamp == self._answered:
+            return "duplicate"
+        return "accepted" if stamp == self._sample else "late"

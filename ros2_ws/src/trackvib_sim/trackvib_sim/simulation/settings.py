@@ -1,0 +1,44 @@
+"""What a run is made of, validated once."""
+
+from dataclasses import dataclass
+
+from ..vehicle.system import Operation
+
+NANO = 1_000_000_000
+
+
+@dataclass(frozen=True)
+class Rates:
+    """Whole rates [Hz] that divide each other, so that every event falls on an exact nanosecond."""
+
+    physics: int = 10_000
+    control: int = 1_000
+    odometry: int = 100
+
+    def __post_init__(self):
+        pairs = (("physics_rate", "control_rate"), ("control_rate", "odometry_rate"))
+        for fast, slow in pairs:
+            f, s = getattr(self, fast.removesuffix("_rate")), getattr(self, slow.removesuffix("_rate"))
+            if f % s:
+                raise ValueError(f"{fast} {f} Hz and {slow} {s} Hz clash: the first must be a whole multiple of the second")
+        if NANO % self.physics:
+            raise ValueError(f"physics_rate {self.physics} Hz does not divide a second into whole nanoseconds")
+
+    @property
+    def steps(self):
+        """Physics steps in a control period."""
+        return self.physics // self.control
+
+    @property
+    def period(self):
+        """Control period [ns]."""
+        return NANO // self.control
+
+
+@dataclass(frozen=True)
+class RunSettings:
+    """How the vehicle is driven and at which rates it is stepped and measured."""
+
+    operation: Operation
+    rates: Rates
+    passive_current: float  # A, in the coils before the first answer

@@ -1,0 +1,62 @@
+"""The driver: keeps speed and lane by torque on the road wheels, as long as the vehicle runs without tracks."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..rui.compiled import kernel
+from ..rui.kinematics import body_axes
+from ..rui.spatial import load3
+from .body_tree import SIDES, STATIONS, wheel_name
+
+
+class Driver(NamedTuple):
+    """Gains and what they act on."""
+
+    wheel: np.ndarray  # (2, 6) rows of the driven wheels in the tree, left first
+    radius: float  # m, turns force into torque
+    half_tread: float  # m
+    speed: float  # wanted, m/s
+    speed_gain: float  # N s/m
+    integral_gain: float  # N/m
+    force_limit: float  # N
+    heading_gain: float  # N m/rad
+    heading_damping: float  # N m s/rad
+    lane_gain: float  # rad/m
+
+
+def driver(vehicle, rows, speed):
+    """Return the record for a wanted speed [m/s]."""
+    d = vehicle.driver
+    return Driver(
+        wheel=np.array([[rows[wheel_name(side, station)] for station in range(STATIONS)] for side in SIDES]),
+        radius=vehicle.road_wheels.radius,
+        half_tread=vehicle.road_wheels.y,
+        speed=speed,
+        speed_gain=d.speed_gain,
+        integral_gain=d.speed_integral_gain,
+        force_limit=d.force_limit,
+        heading_gain=d.heading_gain,
+        heading_damping=d.heading_damping,
+        lane_gain=d.lane_gain,
+    )
+
+
+@kernel
+def add_driver(driver, motion, loads, integral, dt):
+    """Add the wheel torques and advance the integral (1,) [N] of the speed error; it rests while the force is cut."""
+    forward = body_axes(motion, 0, load3(motion.velocity, 0))[0]
+    error = driver.speed - forward
+    wanted = driver.speed_gain * error + integral[0]
+    force = min(max(wanted, -driver.force_limit), driver.force_limit)
+    if force == wanted:
+        integral[0] += driver.integral_gain * error * dt
+    heading = np.arctan2(motion.rotation[0, 3], motion.rotation[0, 0])
+    wanted_heading = -driver.lane_gain * motion.origin[0, 1]
+    moment = driver.heading_gain * (wanted_heading - heading) - driver.heading_damping * motion.rate[0, 2]
+    steering = 0.5 * moment / driver.half_tread
+    wheels = driver.wheel.shape[1]
+    for i in range(wheels):
+        # a moment to the left pulls on the right side
+        loads.torque[driver.wheel[0, i]] += driver.radius * (0.5 * force - steering) / wheels
+        loads.torque[driver.wheel[1, i]] += driver.radius * (0.5 * force + steering) / wheels

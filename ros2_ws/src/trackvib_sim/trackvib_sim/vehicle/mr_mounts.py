@@ -1,0 +1,111 @@
+"""Magnetorheological mounts between hull and powertrain, parallel to hinge 8 [Tao2025].
+
+The force law in one place: stiffness k(I) and damping c(I) = 2 zeta(I) sqrt(k(I) m) from the paper's fits, used only
+inside their valid range, other axes as ratios of the vertical one. Force and reaction act at the same point (the upper
+end), so that the pair carries no couple; the paper moves the reaction to the lower end instead, which would.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..rui.compiled import kernel
+from ..rui.kinematics import body_axes, point_place, point_velocity
+from ..rui.loads import apply_force
+from ..rui.spatial import load3, load9, rotate, scale, subtract
+
+KN_PER_MM = 1e6  # N/m
+
+
+class MrMounts(NamedTuple):
+    """The two mounts; index 0 is the left one."""
+
+    hull: int  # rows in the tree
+    powertrain: int
+    upper: np.ndarray  # (2, 3) upper ends in the powertrain, m
+    lower: np.ndarray  # (2, 3) lower ends in the hull, m
+    stiffness_fit: np.ndarray  # (4,) N/m, highest power of I first
+    damping_ratio_fit: np.ndarray  # (4,)
+    carried_mass: float  # kg
+    static_load: float  # N
+    lowest_current: float  # A, valid range of the fits
+    highest_current: float
+    stiffness_ratio: np.ndarray  # (3,) x, y, z
+    damping_ratio: np.ndarray  # (3,)
+
+
+def mr_mounts(vehicle, rows):
+    """Return the record for the vehicle; the lower ends lie under the upper ends when every hinge is at zero."""
+    m = vehicle.mr_mounts
+    x, y, z = m.place
+    upper = np.array([[x, y, z], [x, -y, z]])
+    return MrMounts(
+        hull=rows["hull"],
+        powertrain=rows["powertrain"],
+        upper=upper,
+        lower=upper + np.array(vehicle.powertrain.place),
+        stiffness_fit=KN_PER_MM * np.array(m.stiffness_fit),
+        damping_ratio_fit=np.array(m.damping_ratio_fit),
+        carried_mass=m.carried_mass,
+        static_load=m.static_load,
+        lowest_current=m.current_range[0],
+        highest_current=m.current_range[1],
+        stiffness_ratio=np.array(m.stiffness_ratio),
+        damping_ratio=np.array(m.damping_ratio),
+    )
+
+
+@kernel
+def mount_characteristics(mounts, current):
+    """Return k(I) [N/m] and c(I) [N s/m] of one mount, the current [A] clamped to the valid range of the fits."""
+    i = min(max(current, mounts.lowest_current), mounts.highest_current)
+    k, zeta = 0.0, 0.0
+    for n in range(4):
+        k = k * i + mounts.stiffness_fit[n]
+        zeta = zeta * i + mounts.damping_ratio_fit[n]
+    # a fit must never become an energy source
+    return k, 2.0 * max(zeta, 0.0) * np.sqrt(k * mounts.carried_mass)
+
+
+@kernel
+def mount_deflection(mounts, motion, index):
+    """Return upper place (global), deflection l and its rate l_d in hull axes [Tao2025, hinge 8]."""
+    upper = point_place(motion, mounts.powertrain, load3(mounts.upper, index))
+    lower = point_place(motion, mounts.hull, load3(mounts.lower, index))
+    # l_d = A7^T (v_B - v_26 - Om7 x (r_B - r_26)): the rate against the hull's own point at the same place
+    relative = subtract(
+        point_velocity(motion, mounts.powertrain, upper), point_velocity(motion, mounts.hull, upper)
+    )
+    l = body_axes(motion, mounts.hull, subtract(upper, lower))  # noqa: E741 - the paper's symbol
+    return upper, l, body_axes(motion, mounts.hull, relative)
+
+
+@kernel
+def mount_force(mounts, current, l, l_d):  # noqa: E741 - the paper's symbols
+    """Return the force on the powertrain in hull axes [N] and the power that the damping turns into heat [W]."""
+    k, c = mount_characteristics(mounts, current)
+    r_k, r_c = mounts.stiffness_ratio, mounts.damping_ratio
+    damping = (c * r_c[0] * l_d[0], c * r_c[1] * l_d[1], c * r_c[2] * l_d[2])
+    force = (
+        -k * r_k[0] * l[0] - damping[0],
+        -k * r_k[1] * l[1] - damping[1],
+        mounts.static_load - k * r_k[2] * l[2] - damping[2],
+    )
+    return force, damping[0] * l_d[0] + damping[1] * l_d[1] + damping[2] * l_d[2]
+
+
+@kernel
+def add_mounts(mounts, motion, loads, currents, imposed, imposed_rate):
+    """Add the mounts' forces to powertrain and hull.
+
+    `imposed` [m] and `imposed_rate` [m/s] are the vertical displacement that the engine imposes across each mount in
+    the paper's way of exciting the powertrain; both are zero otherwise.
+    """
+    for index in range(2):
+        upper, l, l_d = mount_deflection(mounts, motion, index)  # noqa: E741
+        l = (l[0], l[1], l[2] - imposed)  # noqa: E741
+        l_d = (l_d[0], l_d[1], l_d[2] - imposed_rate)
+        force, _ = mount_force(mounts, currents[index], l, l_d)
+        force = rotate(load9(motion.rotation, mounts.hull), force)
+        apply_force(loads, motion, mounts.powertrain, upper, force)
+        apply_force(loads, motion, mounts.hull, upper, scale(-1.0, force))

@@ -1,0 +1,254 @@
+"""The vehicle file: what it must hold, and how it is read."""
+
+from pathlib import Path
+from typing import Annotated
+
+import yaml
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from .quantities import scalar, vector, vectors
+
+Mass = scalar("kg", gt=0.0)
+Length = scalar("m", gt=0.0)
+Place = vector("m", 3)
+Inertia = vector("kg m^2", 3, gt=0.0)
+Products = vector("kg m^2", 3)
+Gain = lambda unit: scalar(unit, ge=0.0)  # noqa: E731 - reads as the type it stands for
+Range = lambda unit: vector(unit, 2, ge=0.0)  # noqa: E731
+
+
+class VehicleFileError(ValueError):
+    """A vehicle file that cannot be used; the message names file, item, value and what is accepted."""
+
+
+class Section(BaseModel):
+    """A section of the file: unknown items are refused."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Solid(Section):
+    """A rigid body: mass, centre from its origin, inertia about the centre (diagonal; products as matrix elements)."""
+
+    mass: Mass
+    centre: Place
+    inertia: Inertia
+    products: Products
+
+
+class RotaryHinged(Solid):
+    """A body on a revolute hinge with a rotary spring and damper."""
+
+    place: Place
+    stiffness: Gain("N m/rad")
+    damping: Gain("N m s/rad")
+
+
+class Sliding(Solid):
+    """A body on a slide with a spring and damper."""
+
+    place: Place
+    stiffness: Gain("N/m")
+    damping: Gain("N s/m")
+
+
+class MrMounts(Section):
+    """The pair of magnetorheological mounts: measured fits, their valid range, the other axes as ratios."""
+
+    place: Place
+    stiffness_fit: vector("kN/mm, I in A", 4)
+    damping_ratio_fit: vector("-, I in A", 4)
+    carried_mass: Mass
+    static_load: Gain("N")
+    current_range: Range("A")
+    stiffness_ratio: vector("-", 3, ge=0.0)
+    damping_ratio: vector("-", 3, ge=0.0)
+
+
+class Coil(Section):
+    """Driver and coil of one mount."""
+
+    time_constant: scalar("s", gt=0.0)
+    current_limits: Range("A")
+
+
+class Engine(Section):
+    """Excitation by engine order: force and moment amplitudes at rated speed."""
+
+    rated_speed: scalar("r/min", gt=0.0)
+    speed_range: Range("r/min")
+    place: Place
+    orders: vector("1/revolution", gt=0.0)
+    force: vectors("N", 3)
+    moment: vectors("N m", 3)
+    phase: vector("rad")
+    imposed_amplitude: Gain("m")
+
+    @model_validator(mode="after")
+    def _one_row_an_order(self):
+        for name in ("force", "moment", "phase"):
+            if len(getattr(self, name)) != len(self.orders):
+                raise ValueError(f"{name} has {len(getattr(self, name))} rows, must have one for each order")
+        return self
+
+
+class SwingArms(Solid):
+    """Swing arms with torsion bars and bump stops; stiffness and damping as seen at the wheel."""
+
+    length: Length
+    static_angle: scalar("deg", gt=0.0, lt=80.0)
+    pivot_y: Length
+    wheel_x: vector("m", 6)
+    wheel_rate: scalar("N/m", gt=0.0)
+    friction: Gain("N s/m")
+    bump_travel: Length
+    bump_stiffness: Gain("N/m")
+    bump_damping: Gain("N s/m")
+
+    @model_validator(mode="after")
+    def _stop_within_reach(self):
+        highest = self.length * (1.0 + _sine(self.static_angle))
+        if self.bump_travel >= highest:
+            raise ValueError(f"bump_travel is {self.bump_travel} m, must be < {highest:.3f} m, which the arm can reach")
+        return self
+
+
+class ShockAbsorbers(Section):
+    """Telescopic shock absorbers with blow-off, as seen at the wheel."""
+
+    stations: Annotated[vector("-", ge=1.0, le=6.0), Field(max_length=6)]
+    damping: Gain("N s/m")
+    blow_off_force: Gain("N")
+    blow_off_damping: Gain("N s/m")
+
+
+class RoadWheels(Section):
+    """Road wheels as discs about their axle."""
+
+    mass: Mass
+    radius: Length
+    width: Length
+    y: Length
+    bearing_damping: Gain("N m s/rad")
+
+
+class Tyres(Section):
+    """Rubber of the road wheels: radial at static load, tangential as brushes with a relaxation length."""
+
+    radial_stiffness: scalar("N/m", gt=0.0)
+    radial_damping: Gain("N s/m")
+    longitudinal_stiffness: Gain("N/m")
+    longitudinal_damping: Gain("N s/m")
+    lateral_stiffness: Gain("N/m")
+    lateral_damping: Gain("N s/m")
+    relaxation_length: Length
+    friction: scalar("-", gt=0.0)
+
+
+class HullWheels(Section):
+    """Discs that turn in the hull: sprockets, carrier rollers, idlers."""
+
+    mass: Mass
+    radius: Length
+    width: Length
+    x: vector("m")
+    y: Length
+    z: vector("m")
+    bearing_damping: Gain("N m s/rad")
+
+    @model_validator(mode="after")
+    def _x_and_z_pair(self):
+        if len(self.x) != len(self.z):
+            raise ValueError(f"x has {len(self.x)} places and z {len(self.z)}, must be as many")
+        return self
+
+
+class Driver(Section):
+    """Keeps speed and lane."""
+
+    speed_gain: Gain("N s/m")
+    speed_integral_gain: Gain("N/m")
+    force_limit: Gain("N")
+    heading_gain: Gain("N m/rad")
+    heading_damping: Gain("N m s/rad")
+    lane_gain: Gain("rad/m")
+
+
+class Vehicle(Section):
+    """The whole file."""
+
+    hull: Solid
+    turret: RotaryHinged
+    gun_mount: RotaryHinged
+    recoil_part: Sliding
+    powertrain: RotaryHinged
+    mr_mounts: MrMounts
+    coil: Coil
+    engine: Engine
+    swing_arms: SwingArms
+    shock_absorbers: ShockAbsorbers
+    road_wheels: RoadWheels
+    tyres: Tyres
+    sprockets: HullWheels
+    carrier_rollers: HullWheels
+    idlers: HullWheels
+    driver: Driver
+
+    @model_validator(mode="after")
+    def _counts_of_the_paper(self):
+        for name, count in (("sprockets", 1), ("carrier_rollers", 4), ("idlers", 1)):
+            if len(getattr(self, name).x) != count:
+                raise ValueError(f"{name}: {len(getattr(self, name).x)} places a side, must be {count}")
+        for name, (low, high) in (
+            ("mr_mounts.current_range", self.mr_mounts.current_range),
+            ("coil.current_limits", self.coil.current_limits),
+            ("engine.speed_range", self.engine.speed_range),
+        ):
+            if not low < high:
+                raise ValueError(f"{name}: [{low}, {high}], the first must be below the second")
+        return self
+
+
+def _sine(degrees):
+    from math import radians, sin
+
+    return sin(radians(degrees))
+
+
+def parse_vehicle(text, name):
+    """Return the `Vehicle` that a YAML text describes.
+
+    Raises
+    ------
+    VehicleFileError
+        The text is not YAML, or an item is missing, unknown, in the wrong unit or out of range.
+    """
+    try:
+        return Vehicle.model_validate(yaml.safe_load(text))
+    except yaml.YAMLError as error:
+        raise VehicleFileError(f"{name}: not a YAML file: {error}") from None
+    except ValidationError as error:
+        raise VehicleFileError("\n".join(_sentence(name, each) for each in error.errors())) from None
+
+
+def read_vehicle(path):
+    """Return the `Vehicle` in a YAML file and the file's text.
+
+    Raises
+    ------
+    VehicleFileError
+        The file cannot be read, or as in `parse_vehicle`.
+    """
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise VehicleFileError(f"vehicle file {str(path)!r} cannot be read: {error}") from None
+    return parse_vehicle(text, str(path)), text
+
+
+def _sentence(name, error):
+    item = ".".join(str(part) for part in error["loc"])
+    reason = error["msg"].removeprefix("Value error, ")
+    if error["type"] in ("missing", "value_error"):
+        return f"{name}: {item}: {reason}" if item else f"{name}: {reason}"
+    return f"{name}: {item} is {error['input']!r}: {reason}"

@@ -1,0 +1,41 @@
+"""Quantities of a vehicle file: each carries value, unit and source, and is checked before its plain value is used."""
+
+from typing import Annotated
+
+from pydantic import BeforeValidator, Field
+
+SOURCES = ("published", "literature", "assumed", "calibrated")
+KEYS = {"value", "unit", "source", "note"}
+
+
+def _plain(unit):
+    """Return a validator that checks unit and source and hands on the bare value."""
+
+    def check(quantity):
+        if not isinstance(quantity, dict) or not {"value", "unit", "source"} <= set(quantity) <= KEYS:
+            raise ValueError(f"must be written {{value: ..., unit: {unit}, source: ...}}, a note may follow")
+        if quantity["unit"] != unit:
+            raise ValueError(f"unit is {quantity['unit']!r}, must be {unit!r}")
+        if quantity["source"] not in SOURCES:
+            raise ValueError(f"source is {quantity['source']!r}, must be one of {', '.join(SOURCES)}")
+        return quantity["value"]
+
+    return BeforeValidator(check)
+
+
+def scalar(unit, **limits):
+    """Return the type of a finite number in `unit` within pydantic's `limits` (gt, ge, lt, le)."""
+    return Annotated[float, Field(allow_inf_nan=False, **limits), _plain(unit)]
+
+
+def vector(unit, length=None, **limits):
+    """Return the type of a list of finite numbers in `unit`, of a fixed length if one is given."""
+    element = Annotated[float, Field(allow_inf_nan=False, **limits)]
+    return Annotated[list[element], Field(min_length=length or 1, max_length=length), _plain(unit)]
+
+
+def vectors(unit, length):
+    """Return the type of a list of vectors of `length` numbers in `unit`."""
+    element = Annotated[float, Field(allow_inf_nan=False)]
+    row = Annotated[list[element], Field(min_length=length, max_length=length)]
+    return Annotated[list[row], Field(min_length=1), _plain(unit)]

@@ -1,0 +1,1 @@
+"""What stands between the body tree and the ground."""

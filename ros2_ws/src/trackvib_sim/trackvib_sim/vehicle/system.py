@@ -1,0 +1,99 @@
+"""The two records of the whole vehicle: `System`, which never changes during a run, and `State`, which does."""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ..rui.kinematics import Motion, new_motion
+from ..rui.loads import Loads, new_loads
+from ..rui.riccati import Sweep, new_sweep
+from ..rui.tree import Tree, TreeState, build_tree, rest_state
+from .body_tree import SIDES, STATIONS, body_table
+from .coil import Coil, coil
+from .driver import Driver, driver
+from .engine import Engine, engine
+from .hinge_springs import HingeSprings, hinge_springs
+from .mr_mounts import MrMounts, mr_mounts
+from .running_gear.wheels_on_road import WheelsOnRoad, WheelsState, wheels_on_road
+from .suspension import Suspension, suspension
+
+SPRUNG = ("hull", "turret", "gun_mount", "recoil_part", "powertrain")
+GRAVITY = 9.81  # m/s^2
+
+
+@dataclass(frozen=True)
+class Operation:
+    """How the vehicle is driven in a run."""
+
+    speed: float  # m/s
+    engine_speed: float  # r/min, 0 for a standing engine
+    imposed_displacement: bool  # the paper's engine excitation instead of forces and moments
+
+
+class System(NamedTuple):
+    """Everything that does not change while a run steps."""
+
+    dt: float  # s
+    tree: Tree
+    springs: HingeSprings
+    suspension: Suspension
+    mounts: MrMounts
+    coil: Coil
+    engine: Engine
+    driver: Driver
+    wheels: WheelsOnRoad
+
+
+class State(NamedTuple):
+    """Everything that does, changed in place."""
+
+    tree: TreeState
+    brushes: WheelsState
+    currents: np.ndarray  # (2,) in the coils, A
+    crank_angle: np.ndarray  # (1,) rad, within one cycle of all orders
+    speed_integral: np.ndarray  # (1,) N
+
+
+class Work(NamedTuple):
+    """Room for the intermediate results of a step."""
+
+    motion: Motion
+    loads: Loads
+    sweep: Sweep
+
+
+def build_system(vehicle, operation, dt):
+    """Return the `System` of a vehicle (`parameters.Vehicle`) in an operation, for physics steps of dt [s]."""
+    table = body_table(vehicle)
+    rows = {body.name: row for row, body in enumerate(table)}
+    tree = build_tree(table, gravity=(0.0, 0.0, -GRAVITY))
+    return System(
+        dt=dt,
+        tree=tree,
+        springs=hinge_springs(vehicle, rows),
+        suspension=suspension(vehicle, rows, sum(tree.mass[rows[name]] for name in SPRUNG), GRAVITY),
+        mounts=mr_mounts(vehicle, rows),
+        coil=coil(vehicle, dt),
+        engine=engine(vehicle, rows, operation.engine_speed, operation.imposed_displacement),
+        driver=driver(vehicle, rows, operation.speed),
+        wheels=wheels_on_road(vehicle, rows, tree.mass.sum() * GRAVITY / (len(SIDES) * STATIONS)),
+    )
+
+
+def new_state(system):
+    """Return a state with every coordinate at zero."""
+    wheels = len(system.wheels.row)
+    return State(
+        tree=rest_state(system.tree),
+        brushes=WheelsState(np.zeros(wheels), np.zeros(wheels)),
+        currents=np.zeros(2),
+        crank_angle=np.zeros(1),
+        speed_integral=np.zeros(1),
+    )
+
+
+def new_work(system):
+    """Return working room for a system."""
+    n = len(system.tree.mass)
+    return Work(new_motion(n), new_loads(n), new_sweep(n))
