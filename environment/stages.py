@@ -6,6 +6,7 @@ A change in this file makes every stage anew: its own text is among what they de
 import hashlib
 import json
 import os
+import re
 from pathlib import Path
 from typing import Callable, NamedTuple, Optional
 
@@ -57,7 +58,7 @@ def plan(setup: Setup) -> list:
     workspace = fingerprint([venv, includes, _workspace_sources(places.sources)])
     kernels = fingerprint([venv, _python_sources(places.sources / "trackvib_sim" / "trackvib_sim")])
     return [
-        Stage("packages", f"setting up (once): {packages}", "about 1 min", places.venv, venv,
+        Stage("packages", f"setting up (once): {packages}", "about 1 min with a fast network", places.venv, venv,
               lambda task: _make_venv(setup, task)),
         Stage("workspace", "building the ROS 2 packages", "about 30 s", places.workspace, workspace,
               lambda task: _make_workspace(setup, task)),
@@ -80,6 +81,10 @@ def _make_venv(setup: Setup, task: Task) -> None:
     env["PIP_USER"] = "0"  # a user's configuration may ask for --user, which venv's pip refuses
     share = ["--system-site-packages"] if ros.prefix else []
     task.run([python.path, "-I", "-m", "venv", *share, str(places.venv)], env)
+    # empy comes as source; it, too, is to be built with a pinned tool. As a URL, because a path may have a space.
+    builder = places.venv / "builder.txt"
+    builder.write_text(re.search("^setuptools==.*", setup.lock_file.read_text(), re.MULTILINE)[0])
+    env["PIP_CONSTRAINT"] = env["PIP_BUILD_CONSTRAINT"] = builder.as_uri()
     # The lock is complete, so nothing has to be resolved; -I keeps pip from counting what lies under ~/.local.
     pip = [str(places.python), "-I", "-m", "pip", "--disable-pip-version-check", "--no-input", "install"]
     task.run([*pip, "--no-deps", "--progress-bar=off", "-r", str(setup.lock_file)], env)

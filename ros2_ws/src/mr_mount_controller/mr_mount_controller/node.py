@@ -9,7 +9,7 @@ from trackvib_msgs.msg import CoilCurrent
 
 from .laws import find_law
 from .laws.base import LawError, Sample, answer
-from .node_support import LOOP_QOS, LoopNode, NodeError, run_node
+from .node_support import LOOP_QOS, LOOP_WRITER_QOS, LoopNode, NodeError, run_node
 from .parameters import Parameter
 
 PARAMETERS = (
@@ -33,7 +33,7 @@ class ControllerNode(LoopNode):
         self._last = None  # stamp answered last, ns
         self._gaps = 0
         self._answer = CoilCurrent()
-        self._currents = self.create_publisher(CoilCurrent, "coil_current", LOOP_QOS)
+        self._currents = self.create_publisher(CoilCurrent, "coil_current", LOOP_WRITER_QOS)
         self.create_subscription(Imu, "chassis/imu", self._on_chassis, LOOP_QOS)
         self.create_subscription(Imu, "powertrain/imu", self._on_powertrain, LOOP_QOS)
 

@@ -2,6 +2,7 @@
 
 import signal
 import sys
+import time
 
 import rclpy
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
@@ -14,7 +15,10 @@ from rclpy.signals import SignalHandlerOptions
 
 from .parameters import ParameterError
 
-LOOP_QOS = QoSProfile(depth=10)  # reliable, volatile, a few periods
+# Loop topics are reliable and volatile. A reader holds a few periods, so that nobody acts on old samples; a writer
+# holds more, so that a recorder which is slow for a moment still gets everything.
+LOOP_QOS = QoSProfile(depth=10)
+LOOP_WRITER_QOS = QoSProfile(depth=1000)
 LATCHED_QOS = QoSProfile(depth=10, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
 ROAD_QOS = QoSProfile(depth=64, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)  # all patches around the vehicle
 CLOCK_QOS = QoSProfile(depth=1, reliability=QoSReliabilityPolicy.BEST_EFFORT)
@@ -64,9 +68,9 @@ class LoopNode(Node):
 
     def spin_until(self, condition, timeout=None):
         """Serve callbacks until `condition()`; returns whether it came true before a stop or the timeout [s]."""
-        end = None if timeout is None else self._now() + timeout
+        end = None if timeout is None else time.monotonic() + timeout
         while not condition():
-            left = _TICK if end is None else min(_TICK, end - self._now())
+            left = _TICK if end is None else min(_TICK, end - time.monotonic())
             if left <= 0.0 or self.stopping():
                 return condition()
             self.spin_once(left)
@@ -76,9 +80,6 @@ class LoopNode(Node):
         """Hand in the executor's spin function and the stop flag, then run."""
         self._spin, self.stopping = spin, stopping
         self.run()
-
-    def _now(self):
-        return self.get_clock().now().nanoseconds * 1e-9
 
     def _declare(self, parameter):
         descriptor = ParameterDescriptor(

@@ -1,17 +1,21 @@
 """Quality of service of a recorded topic, as rosbag2 of Jazzy (metadata version 9) writes it down."""
 
 
-def qos_record(depth, reliability, durability):
-    """Return one entry of `offered_qos_profiles`; the names are those of rmw in lower case."""
-    endless = {"sec": 9223372036, "nsec": 854775807}
+def qos_record(profile):
+    """Return one entry of `offered_qos_profiles` for an rclpy QoSProfile (or anything with its attributes)."""
     return {
-        "history": "keep_last",
-        "depth": depth,
-        "reliability": reliability,
-        "durability": durability,
-        "deadline": endless,
-        "lifespan": endless,
-        "liveliness": "automatic",
-        "liveliness_lease_duration": endless,
-        "avoid_ros_namespace_conventions": False,
+        "history": profile.history.name.lower(),
+        "depth": profile.depth,
+        "reliability": profile.reliability.name.lower(),
+        "durability": profile.durability.name.lower(),
+        "deadline": _time(profile.deadline),
+        "lifespan": _time(profile.lifespan),
+        "liveliness": profile.liveliness.name.lower(),
+        "liveliness_lease_duration": _time(profile.liveliness_lease_duration),
+        "avoid_ros_namespace_conventions": profile.avoid_ros_namespace_conventions,
     }
+
+
+def _time(duration):
+    seconds, nanoseconds = divmod(duration.nanoseconds, 1_000_000_000)
+    return {"sec": seconds, "nsec": nanoseconds}

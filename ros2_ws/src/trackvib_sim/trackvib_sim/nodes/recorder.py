@@ -1,6 +1,8 @@
 """The recorder node: writes topics to an MCAP bag as they travel, with the parameters of the nodes that publish them."""
 
+import os
 import sys
+import time
 from datetime import datetime
 from importlib import import_module
 
@@ -33,6 +35,8 @@ PARAMETERS = (
 )
 _DEPTH = 1000  # messages that may wait while a chunk is compressed
 _SERVICE_TIMEOUT = 2.0  # s, for a node to tell its parameters
+_REST = 0.02  # s between looks; waking for every message would take the processor from the loop
+_NICE = 10
 _QUIET = 0.2  # s without a message after which nothing more is expected at the end
 
 
@@ -47,58 +51,57 @@ class RecorderNode(LoopNode):
         except BagError as error:
             raise NodeError(str(error)) from None
         self._wanted = {self.resolve_topic_name(topic) for topic in self.settings["topics"]}
-        self._subscriptions_by_topic = {}
         self._latest = 0  # stamp, ns
         self._received = 0
 
     def run(self):
         """Wait for every topic, write down where it comes from, record until told to stop."""
         self.get_logger().info(f"waiting for {', '.join(sorted(self._wanted))}")
-        if not self.spin_until(self._all_there):
+        if not self.spin_until(lambda: all(map(self.get_publishers_info_by_topic, self._wanted))):
             return
         self._bag.add_provenance("versions", versions())
         for name in self._publishing_nodes():
             self._bag.add_provenance(f"parameters of {name}", self._parameters_of(name))
+        # only now: whoever waits for a recorder starts when it sees the subscriptions
+        for topic in sorted(self._wanted):
+            self._subscribe(topic)
         self.get_logger().info(f"recording {len(self._wanted)} topics to {self._bag.path}")
-        super().run()
+        while not self.stopping():
+            self._take_all()
+            time.sleep(_REST)
+
+    def _take_all(self):
+        """Write all that has arrived; returns whether anything had."""
+        start = before = self._received
+        while True:
+            self.spin_once(0.0)
+            if self._received == before:
+                return before > start
+            before = self._received
 
     def close(self):
         """Take what has arrived already, then complete the bag."""
-        before = -1
-        while before != self._received:
-            before = self._received
-            end = self._now() + _QUIET
-            while self._now() < end:
-                self.spin_once(_QUIET / 4)
+        while self._take_all():
+            time.sleep(_QUIET)
         self._bag.close()
         self.get_logger().info(f"{self._bag.counts.total()} messages in {self._bag.path}")
 
-    def _all_there(self):
-        types = dict(self.get_topic_names_and_types())
-        for topic in self._wanted - set(self._subscriptions_by_topic):
-            if topic in types:
-                self._subscribe(topic, types[topic][0])
-        subscriptions = self._subscriptions_by_topic.values()
-        return len(subscriptions) == len(self._wanted) and all(s.get_publisher_count() for s in subscriptions)
-
-    def _subscribe(self, topic, type_name):
-        offers = [info.qos_profile for info in self.get_publishers_info_by_topic(topic)]
-        if not offers:
-            return  # only subscribers so far
-        latched = all(offer.durability == QoSDurabilityPolicy.TRANSIENT_LOCAL for offer in offers)
-        reliable = all(offer.reliability == QoSReliabilityPolicy.RELIABLE for offer in offers)
+    def _subscribe(self, topic):
+        infos = self.get_publishers_info_by_topic(topic)
+        offers = [info.qos_profile for info in infos]
         qos = QoSProfile(depth=_DEPTH)
-        qos.durability = QoSDurabilityPolicy.TRANSIENT_LOCAL if latched else QoSDurabilityPolicy.VOLATILE
-        qos.reliability = QoSReliabilityPolicy.RELIABLE if reliable else QoSReliabilityPolicy.BEST_EFFORT
-        records = [qos_record(o.depth, o.reliability.name.lower(), o.durability.name.lower()) for o in offers]
-        self._bag.add_topic(topic, type_name, records)
+        # take all that every publisher can give
+        if all(offer.durability == QoSDurabilityPolicy.TRANSIENT_LOCAL for offer in offers):
+            qos.durability = QoSDurabilityPolicy.TRANSIENT_LOCAL
+        if any(offer.reliability == QoSReliabilityPolicy.BEST_EFFORT for offer in offers):
+            qos.reliability = QoSReliabilityPolicy.BEST_EFFORT
+        type_name = infos[0].topic_type
+        self._bag.add_topic(topic, type_name, [qos_record(offer) for offer in offers])
         package, kind, name = type_name.split("/")
         message_type = getattr(import_module(f"{package}.{kind}"), name)
-        stamped = next(iter(message_type.get_fields_and_field_types().values())) in (
-            "std_msgs/Header",
-            "builtin_interfaces/Time",
-        )
-        self._subscriptions_by_topic[topic] = self.create_subscription(
+        first_field = next(iter(message_type.get_fields_and_field_types().values()))
+        stamped = first_field in ("std_msgs/Header", "builtin_interfaces/Time")
+        self.create_subscription(
             message_type, topic, lambda data: self._on_message(topic, stamped, data), qos, raw=True
         )
 
@@ -132,4 +135,6 @@ class RecorderNode(LoopNode):
 
 def main(args=None):
     """Run the node."""
+    # The loop goes first: a recorder that is served at once takes the processor from it for every message.
+    os.nice(_NICE)
     sys.exit(run_node(RecorderNode, args))

@@ -3,7 +3,16 @@
 import sys
 import time
 
-from mr_mount_controller.node_support import CLOCK_QOS, LATCHED_QOS, LOOP_QOS, ROAD_QOS, LoopNode, NodeError, run_node
+from mr_mount_controller.node_support import (
+    CLOCK_QOS,
+    LATCHED_QOS,
+    LOOP_QOS,
+    LOOP_WRITER_QOS,
+    ROAD_QOS,
+    LoopNode,
+    NodeError,
+    run_node,
+)
 from mr_mount_controller.parameters import ParameterError
 from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
@@ -40,7 +49,7 @@ class SimulatorNode(LoopNode):
         self._simulation = self._prepare(vehicle)
         self._period = self._simulation.settings.rates.period
         self._exchange = Exchange(s["passive_current"], usable_current(vehicle), self._lockstep)
-        self._clock = PhaseClock("physics", "publishing", "waiting")
+        self._phases = PhaseClock("physics", "publishing", "waiting")
         self._silent = False  # no answer came in time; the loop runs on without waiting
         self._heard = False  # some answer came since
         self._state = "waiting"
@@ -48,13 +57,13 @@ class SimulatorNode(LoopNode):
         self._imus = (ImuMessage(topics.CHASSIS_FRAME), ImuMessage(topics.POWERTRAIN_FRAME))
         self._mounts, self._odometry, self._time = MountMessage(), OdometryMessage(), Clock()
         self._imu_out = (
-            self.create_publisher(Imu, topics.CHASSIS_IMU, LOOP_QOS),
-            self.create_publisher(Imu, topics.POWERTRAIN_IMU, LOOP_QOS),
+            self.create_publisher(Imu, topics.CHASSIS_IMU, LOOP_WRITER_QOS),
+            self.create_publisher(Imu, topics.POWERTRAIN_IMU, LOOP_WRITER_QOS),
         )
-        self._mount_out = self.create_publisher(MountState, topics.MOUNT_STATE, LOOP_QOS)
+        self._mount_out = self.create_publisher(MountState, topics.MOUNT_STATE, LOOP_WRITER_QOS)
         self._odometry_out = self.create_publisher(Odometry, topics.ODOMETRY, LATCHED_QOS)
         self._clock_out = self.create_publisher(Clock, topics.CLOCK, CLOCK_QOS)
-        self._diagnostics_out = self.create_publisher(DiagnosticArray, topics.DIAGNOSTICS, LOOP_QOS)
+        self._diagnostics_out = self.create_publisher(DiagnosticArray, topics.DIAGNOSTICS, LOOP_WRITER_QOS)
         self._vehicle_out = self.create_publisher(String, topics.VEHICLE_DESCRIPTION, LATCHED_QOS)
         self._vehicle_out.publish(String(data=text))
         self._answers = self.create_subscription(CoilCurrent, topics.COIL_CURRENT, self._on_answer, LOOP_QOS)
@@ -83,20 +92,20 @@ class SimulatorNode(LoopNode):
 
     def _one_period(self, start):
         self._wait_for_road()
-        self._clock.start("physics")
+        self._phases.start("physics")
         try:
             self._simulation.advance(self._exchange.currents)
         except RunFailed as failure:
             self._state = "failed"
             raise NodeError(f"run failed: {failure}") from None
-        self._clock.start("publishing")
+        self._phases.start("publishing")
         self._publish_sample()
-        self._clock.start("waiting")
+        self._phases.start("waiting")
         if self._lockstep:
             self._wait_for_answer()
         else:
             self._wait_for_wall_clock(start)
-        self._clock.stop()
+        self._phases.stop()
 
     # --- waiting ---
 
@@ -215,16 +224,16 @@ class SimulatorNode(LoopNode):
             "state": self._state,
             "time": self._simulation.time / NANO,
             "duration": self.settings["duration"],
-            "real_time_factor": round(self._clock.factor(self._simulation.time / NANO), 3),
+            "real_time_factor": round(self._phases.factor(self._simulation.time / NANO), 3),
             **counts,
-            **{f"{phase}_us_per_period": cost for phase, cost in self._clock.costs().items()},
+            **{f"{phase}_us_per_period": cost for phase, cost in self._phases.costs().items()},
         }
         self._diagnostics_out.publish(diagnostics(self._simulation.time, level, self._state, values))
 
     def _summary(self):
         simulated = self._simulation.time / NANO
-        costs = ", ".join(f"{phase} {cost:.0f} us" for phase, cost in self._clock.costs().items())
-        return f"{simulated:g} s simulated at {self._clock.factor(simulated):.2f} x real time; a period: {costs}"
+        costs = ", ".join(f"{phase} {cost:.0f} us" for phase, cost in self._phases.costs().items())
+        return f"{simulated:g} s simulated at {self._phases.factor(simulated):.2f} x real time; a period: {costs}"
 
     # --- preparing ---
 

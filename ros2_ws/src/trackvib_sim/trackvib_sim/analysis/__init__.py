@@ -1,0 +1,1 @@
+"""From recorded accelerations to numbers and pictures. No ROS."""

@@ -1,0 +1,59 @@
+"""The command line: `trackvib VERB`."""
+
+import signal
+import sys
+
+import click
+from mr_mount_controller.laws import find_law, known_laws
+from mr_mount_controller.parameters import ParameterError
+
+from .road.iso8608 import CLASSES
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+def main():
+    """Vibration laboratory for a tracked vehicle's powertrain on magnetorheological mounts."""
+    # an orderly end, as on Ctrl-C, when the terminal is closed or the process is asked to end
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, lambda *_: _interrupt())
+
+
+def _interrupt():
+    raise KeyboardInterrupt
+
+
+def _law(_context, _parameter, value):
+    try:
+        find_law(value)
+    except ParameterError as error:
+        raise click.BadParameter(str(error)) from None
+    return value
+
+
+@main.command()
+@click.option("--road-class", type=click.Choice(list(CLASSES), case_sensitive=False), default="E", show_default=True,
+              help="Class of the road by ISO 8608.")
+@click.option("--speed", type=click.FloatRange(0.0, 25.0), default=10.0, show_default=True, help="Speed in m/s.")
+@click.option("--duration", type=click.FloatRange(0.1, 3600.0), default=10.0, show_default=True,
+              help="Simulated time in s.")
+@click.option("--law", default="passive", show_default=True, callback=_law,
+              help=f"Control law: {', '.join(known_laws())}, or package.module:Class.")
+@click.option("--seed", type=click.IntRange(0, 2**31 - 1), default=1, show_default=True, help="Seed of the road.")
+@click.option("--out", type=click.Path(file_okay=False), default=None,
+              help="Folder to make for the run.  [default: runs/<time>_<road>_<speed>]")
+def run(road_class, speed, duration, law, seed, out):
+    """Run the closed loop as four ROS 2 nodes; leaves a bag, a summary and a picture."""
+    from .closed_loop_run import Choices, RunError, perform  # imported late: --help need not wait for it
+
+    try:
+        perform(Choices(road_class, speed, duration, law, seed), out)
+    except RunError as error:
+        click.echo(f"error: {error}", err=True)
+        sys.exit(1)
+    except KeyboardInterrupt:
+        click.echo("interrupted", err=True)
+        sys.exit(130)
+
+
+if __name__ == "__main__":
+    main(prog_name="trackvib")

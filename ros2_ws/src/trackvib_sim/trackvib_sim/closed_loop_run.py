@@ -1,0 +1,153 @@
+"""One run of the closed loop from the command line: processes, progress, bag, summary, picture."""
+
+import json
+from dataclasses import asdict, dataclass
+from datetime import datetime
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.table import Table
+
+from .analysis.plots import run_picture
+from .analysis.summary import AXES, SENSORS, TooShort, prepare, settling_time, summarise
+from .bags.reading import read_drive
+from .bags.writing import BagError
+from .installed import closed_loop_parameters
+from .nodes.processes import LoopProcesses
+from .nodes.watch import Watch
+
+_LOOK = 0.2  # s between looks at processes and progress
+
+
+class RunError(RuntimeError):
+    """A run that cannot be done or did not end as it should."""
+
+
+@dataclass(frozen=True)
+class Choices:
+    """What the user chose."""
+
+    road_class: str
+    speed: float
+    duration: float
+    law: str
+    seed: int
+
+    @property
+    def title(self):
+        """The run in words."""
+        return f"class {self.road_class}, {self.speed:g} m/s, law {self.law}, seed {self.seed}, {self.duration:g} s"
+
+
+def perform(choices, out):
+    """Do a run; everything it leaves lies in one new folder, `out` or one named by time, road and speed.
+
+    Raises
+    ------
+    RunError
+        The folder exists, a node ended on its own, or the bag cannot be read.
+    KeyboardInterrupt
+        After the nodes have ended in order and what there is has been summarised.
+    """
+    console = Console(highlight=False)
+    folder = _make_folder(choices, out)
+    console.print(f"closed loop: {choices.title}")
+    failure = _run_nodes(choices, folder, console)
+    try:
+        _evaluate(choices, folder, console)
+    except (BagError, TooShort) as error:
+        failure = failure or RunError(str(error))
+    if failure is not None:
+        raise failure
+
+
+def _make_folder(choices, out):
+    name = f"{datetime.now():%Y%m%dT%H%M%S}_{choices.road_class}_{choices.speed:g}"
+    folder = Path(out) if out is not None else Path("runs") / name
+    try:
+        folder.mkdir(parents=True)
+        (folder / "log").mkdir()
+    except FileExistsError:
+        raise RunError(f"{str(folder)!r} exists already; nothing is overwritten, choose another --out") from None
+    except OSError as error:
+        raise RunError(f"{str(folder)!r} cannot be made: {error.strerror}") from None
+    return folder
+
+
+def _run_nodes(choices, folder, console):
+    """Run the nodes to the end; returns what went wrong as an exception, or None."""
+    overrides = {
+        "road_excitation": {"road_class": choices.road_class, "seed": choices.seed},
+        "controller": {"law": choices.law},
+        "recorder": {"bag": folder / "bag"},
+        "simulator": {"speed": float(choices.speed), "duration": float(choices.duration)},
+    }
+    processes = LoopProcesses(closed_loop_parameters(), overrides, folder / "log")
+    failure = None
+    try:
+        _follow(processes, choices.duration, console)
+    except KeyboardInterrupt as interrupt:
+        failure = interrupt
+    first = processes.ended()
+    codes = processes.stop()
+    if failure is None and any(codes.values()):
+        name = next(name for name in (*first, *codes) if codes[name])
+        failure = RunError(f"node '{name}' ended with exit code {codes[name]}; it said:\n{processes.last_words(name)}")
+    return failure
+
+
+def _follow(processes, duration, console):
+    """Show progress until a process has ended."""
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TextColumn("{task.completed:.1f} of {task.total:g} s, {task.fields[pace]} x real time"),
+        TimeRemainingColumn(),
+    )
+    with Watch() as watch, Progress(*columns, console=console) as progress:
+        task = progress.add_task("starting", total=duration, pace="-")
+        while not processes.ended():
+            values = watch.look(_LOOK)
+            if values:
+                progress.update(
+                    task,
+                    description=values["state"],
+                    completed=float(values["time"]),
+                    pace=values["real_time_factor"],
+                )
+
+
+def _evaluate(choices, folder, console):
+    drive = read_drive(folder / "bag")
+    settle = settling_time(drive.provenance)
+    prepared = prepare(drive, settle)
+    summary = {"run": asdict(choices), **summarise(drive, prepared, settle)}
+    (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+    run_picture(prepared, choices.title, folder / "run.png")
+    with (folder / "summary.txt").open("w", encoding="utf-8") as file:
+        for target in (console, Console(file=file, width=100)):
+            _print_summary(target, summary, folder)
+
+
+def _print_summary(console, summary, folder):
+    low, high = summary["band_hz"]
+    table = Table(title=f"RMS acceleration, {low:g}-{high:g} Hz, after {summary['settled_after_s']:.1f} s", title_justify="left")
+    table.add_column("m/s²")
+    for axis, name in zip(AXES, ("longitudinal x", "lateral y", "vertical z"), strict=True):
+        table.add_column(name, justify="right")
+    for sensor in SENSORS:
+        table.add_row(sensor, *(f"{summary['rms_mps2'][sensor][axis]:.3f}" for axis in AXES))
+    console.print(table)
+    loop = summary["loop"]
+    console.print(
+        f"loop: {loop['samples']} samples; lost {loop['lost_chassis']} chassis, {loop['lost_powertrain']} powertrain; "
+        f"unanswered {loop['unanswered']}; late {loop['late']}; rejected "
+        f"{int(loop['early']) + int(loop['duplicate']) + int(loop['not_finite'])}; saturated {loop['saturated']}"
+    )
+    console.print(
+        f"pace: {float(loop['real_time_factor']):.2f} x real time; of each period physics "
+        f"{loop['physics_us_per_period']} us, publishing {loop['publishing_us_per_period']} us, waiting for the answer "
+        f"{loop['waiting_us_per_period']} us"
+    )
+    console.print(f"left in {folder}: bag/, summary.json, summary.txt, run.png, log/")

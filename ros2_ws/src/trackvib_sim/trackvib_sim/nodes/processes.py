@@ -1,0 +1,77 @@
+"""The four processes of a closed loop: started together, watched, ended in order."""
+
+import ctypes
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+from ament_index_python.packages import get_package_prefix
+
+EXECUTABLES = {
+    "road_excitation": "trackvib_sim",
+    "controller": "mr_mount_controller",
+    "recorder": "trackvib_sim",
+    "simulator": "trackvib_sim",
+}
+_GRACE = 10.0  # s for a process to end by itself
+_PR_SET_PDEATHSIG = 1  # Linux: signal to a child whose parent has died
+
+
+class LoopProcesses:
+    """Starts the nodes with one parameter file and their own overrides.
+
+    Each has its own session, so that Ctrl-C reaches only whoever started them, who then ends them in order; should
+    that process die, the kernel ends them.
+    """
+
+    def __init__(self, parameter_file, overrides, log_folder):
+        """Start all; `overrides` maps names of nodes to parameters, `log_folder` takes what each prints."""
+        self._log_folder = Path(log_folder)
+        self._processes = {}
+        for name, package in EXECUTABLES.items():
+            executable = Path(get_package_prefix(package)) / "lib" / package / name
+            command = [str(executable), "--ros-args", "--params-file", str(parameter_file)]
+            for parameter, value in overrides.get(name, {}).items():
+                command += ["-p", f"{parameter}:={value}"]
+            with (self._log_folder / f"{name}.log").open("wb") as log:
+                self._processes[name] = subprocess.Popen(
+                    command,
+                    stdin=subprocess.DEVNULL,
+                    stdout=log,
+                    stderr=subprocess.STDOUT,
+                    start_new_session=True,
+                    preexec_fn=_end_with_parent,
+                )
+
+    def ended(self):
+        """Return the exit codes of the processes that have ended, by name."""
+        return {name: code for name, process in self._processes.items() if (code := process.poll()) is not None}
+
+    def stop(self):
+        """End what still runs: the simulator first, the recorder last, so that it gets all there is."""
+        order = ("simulator", "controller", "road_excitation", "recorder")
+        for name in order:
+            process = self._processes[name]
+            if process.poll() is None:
+                process.send_signal(signal.SIGINT)
+                if not _wait(process, _GRACE):
+                    process.kill()
+                    process.wait()
+        return self.ended()
+
+    def last_words(self, name, lines=8):
+        """Return the last lines that a process printed."""
+        text = (self._log_folder / f"{name}.log").read_text(errors="replace")
+        return "\n".join(text.strip().splitlines()[-lines:])
+
+
+def _wait(process, seconds):
+    end = time.monotonic() + seconds
+    while process.poll() is None and time.monotonic() < end:
+        time.sleep(0.02)
+    return process.poll() is not None
+
+
+def _end_with_parent():
+    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)

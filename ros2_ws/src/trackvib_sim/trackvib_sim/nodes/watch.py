@@ -1,0 +1,36 @@
+"""Follows a running simulator from outside, for whoever shows its progress."""
+
+import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
+from rclpy.experimental import EventsExecutor
+from rclpy.signals import SignalHandlerOptions
+
+from .topics import DIAGNOSTICS
+
+
+class Watch:
+    """Latest diagnostics of the simulator; use as a context manager."""
+
+    def __enter__(self):
+        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+        self._node = rclpy.create_node("trackvib_watch")
+        self._values = {}
+        self._node.create_subscription(DiagnosticArray, DIAGNOSTICS, self._on_diagnostics, 1)
+        self._executor = EventsExecutor()
+        self._executor.add_node(self._node)
+        return self
+
+    def __exit__(self, *_):
+        self._executor.shutdown()
+        self._node.destroy_node()
+        rclpy.try_shutdown()
+
+    def look(self, timeout):
+        """Wait at most `timeout` seconds for news; returns the latest values as text, empty before the first."""
+        self._executor.spin_once(timeout_sec=timeout)
+        return self._values
+
+    def _on_diagnostics(self, message):
+        for status in message.status:
+            if status.name == "simulator":
+                self._values = {pair.key: pair.value for pair in status.values}
