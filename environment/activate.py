@@ -54,6 +54,11 @@ def before_workspace(places: Places, ros: Ros, environ) -> dict:
     return env
 
 
+def outside(environ) -> dict:
+    """`environ` as if it were not from inside this checkout's environment: its lists count as foreign."""
+    return {name: value for name, value in environ.items() if name != _MARK}
+
+
 def apply(env: dict, change: dict) -> None:
     """Carry out a change in the form of `ros.changes` on `env`; a second time changes nothing."""
     for name, entries in change["first"].items():

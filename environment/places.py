@@ -1,6 +1,5 @@
 """Where everything lies in a checkout."""
 
-import os
 from pathlib import Path
 
 
@@ -18,7 +17,3 @@ class Places:
         self.python = self.venv / "bin" / "python3"
         self.workspace = self.home / "workspace"
         self.kernels = self.home / "kernels"
-
-    def relative(self, path: Path) -> str:
-        """`path` as the user would type it where they stand."""
-        return os.path.relpath(path)

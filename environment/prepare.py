@@ -5,7 +5,8 @@ import signal
 import time
 from pathlib import Path
 
-from environment import SetupError, ros as ros2, steps, system
+from environment import SetupError, steps, system
+from environment import ros as ros2
 from environment.places import Places
 from environment.stages import Setup, job_variables, plan
 

@@ -10,7 +10,8 @@ import re
 from pathlib import Path
 from typing import Callable, NamedTuple, Optional
 
-from environment import activate, ros as ros2
+from environment import activate
+from environment import ros as ros2
 from environment.places import Places
 from environment.ros import Ros
 from environment.steps import Task, fingerprint
@@ -60,9 +61,9 @@ def plan(setup: Setup) -> list:
     return [
         Stage("packages", f"setting up (once): {packages}", "about 1 min with a fast network", places.venv, venv,
               lambda task: _make_venv(setup, task)),
-        Stage("workspace", "building the ROS 2 packages", "about 30 s", places.workspace, workspace,
+        Stage("workspace", "building the ROS 2 packages", "about 20 s", places.workspace, workspace,
               lambda task: _make_workspace(setup, task)),
-        Stage("kernels", "compiling the simulation", "about 1 min", places.kernels, kernels,
+        Stage("kernels", "compiling the simulation", "about 30 s", places.kernels, kernels,
               lambda task: _make_kernels(setup, kernels, task)),
     ]  # fmt: skip
 
@@ -92,34 +93,44 @@ def _make_venv(setup: Setup, task: Task) -> None:
 
 def _make_workspace(setup: Setup, task: Task) -> None:
     places, ros, python = setup
-    env = activate.before_workspace(places, ros, os.environ)
-    of_ros = {"first": {}, "set": {}}
     script = ros.prefix and ros.prefix / "setup.bash"
-    if script and script.exists():
-        of_ros = ros2.changes(script, _bare())
+    of_ros = ros2.changes(script, _bare()) if script and script.exists() else {"first": {}, "set": {}}
+    install = places.workspace / "install"
+    task.run([*_colcon(places, ros), "--install-base", str(install)], _build_variables(setup, of_ros))
+    _mend_first_lines(install)
+    # Sourced where nothing else was: what a variable holds already would not be seen as the workspace's.
+    env = activate.before_workspace(places, ros, _bare())
+    activate.apply(env, of_ros)
+    # The script calls Python without quotes; the virtual environment's may lie in a path with a space.
+    env["COLCON_PYTHON_EXECUTABLE"] = python.path
+    captured = {"ros": of_ros, "workspace": ros2.changes(install / "local_setup.bash", env)}
+    activate.captured_path(places).write_text(json.dumps(captured, indent=1))
+
+
+def _build_variables(setup: Setup, of_ros: dict) -> dict:
+    """The user's variables (a compiler's, for example) with those of ROS 2, for colcon."""
+    places, ros, _ = setup
+    env = activate.before_workspace(places, ros, activate.outside(os.environ))
     if not ros.sourced:
         activate.apply(env, of_ros)
         activate.put_first(env, "PATH", [str(places.venv / "bin")])
     # A user's own defaults for colcon could ask for other folders or another kind of build.
     env.update(COLCON_HOME=str(places.workspace / "colcon"), COLCON_LOG_PATH=str(places.logs / "colcon"))
     env.pop("COLCON_DEFAULTS_FILE", None)
-    install = places.workspace / "install"
+    return env
+
+
+def _colcon(places: Places, ros: Ros) -> list:
+    """The command that builds the workspace, up to the folder to install to."""
     cmake = ["-G", "Ninja", f"-DPython3_EXECUTABLE={places.python}", "-DBUILD_TESTING=OFF"]
     if not ros.prefix:
         cmake.append(f"-DCMAKE_PROJECT_INCLUDE={places.environment / 'wheel_includes.cmake'}")
     # Not the `colcon` script: its first line cannot name an interpreter whose path has a space.
-    colcon = [str(places.python), "-c", "import sys; from colcon_core.command import main; sys.exit(main())"]
-    build = ["build", "--symlink-install", "--base-paths", str(places.sources)]
-    build += ["--build-base", str(places.workspace / "build"), "--install-base", str(install)]
+    colcon = [str(places.python), "-c", "import sys; from colcon_core.command import main; sys.exit(main())", "build"]
     # One package after the other, so that the log ends with the output of the one that failed.
-    quiet = ["--event-handlers", "console_cohesion+", "console_stderr-", "desktop_notification-", "status-"]
-    task.run([*colcon, *build, "--executor", "sequential", *quiet, "--cmake-args", *cmake], env)
-    _mend_first_lines(install)
-    # The script calls Python without quotes; the virtual environment's may lie in a path with a space.
-    env["COLCON_PYTHON_EXECUTABLE"] = python.path
-    of_workspace = ros2.changes(install / "local_setup.bash", env)
-    captured = {"ros": of_ros, "workspace": of_workspace}
-    activate.captured_path(places).write_text(json.dumps(captured, indent=1))
+    how = ["--symlink-install", "--executor", "sequential", "--cmake-args", *cmake]
+    shows = ["--event-handlers", "console_cohesion+", "console_stderr-", "desktop_notification-", "status-"]
+    return [*colcon, *how, *shows, "--base-paths", str(places.sources), "--build-base", str(places.workspace / "build")]
 
 
 def _make_kernels(setup: Setup, key: str, task: Task) -> None:

@@ -1,5 +1,6 @@
 """What the machine itself has to provide: a C++ compiler, Python's headers and venv. Missing ones come from apt."""
 
+import contextlib
 import os
 import shlex
 import shutil
@@ -57,10 +58,13 @@ def require(python: Interpreter, log) -> None:
     else:
         line = f"apt-get update && {shlex.join(install)}"
         line = f"sudo sh -c '{line}'" if shutil.which("sudo") else f"su -c '{line}'"
-        raise SetupError(f"missing on this machine: {listed}. Nothing was done yet. Type this, then start again:\n{line}")
+        raise SetupError(
+            f"missing on this machine: {listed}. Nothing was done yet. Type this, then start again:\n{line}"
+        )
     quiet = [*become_root, "env", "DEBIAN_FRONTEND=noninteractive"]
     with Task(f"installing with apt-get: {' '.join(packages)}", "about 1 min", log) as task:
-        task.run([*quiet, "apt-get", "update"], dict(os.environ), own_group=False)
+        with contextlib.suppress(SetupError):  # one broken source is no harm if the others have the packages
+            task.run([*quiet, "apt-get", "update"], dict(os.environ), own_group=False)
         task.run([*quiet, *install], dict(os.environ), own_group=False)
     left = _missing(python)
     if left:
@@ -84,7 +88,7 @@ def _missing(python: Interpreter) -> dict:
         if own:
             raise SetupError(
                 f"{python.path} came without {' and '.join(own)} (looked in {include}). "
-                "Install it anew with them, or start again with another Python, for example: /usr/bin/python3 ./trackvib"
+                "Install it anew with them, or start again with another Python: /usr/bin/python3 ./trackvib ..."
             )
     return missing
 

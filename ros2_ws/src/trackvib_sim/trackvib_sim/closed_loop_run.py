@@ -132,7 +132,8 @@ def _evaluate(choices, folder, console):
 
 def _print_summary(console, summary, folder):
     low, high = summary["band_hz"]
-    table = Table(title=f"RMS acceleration, {low:g}-{high:g} Hz, after {summary['settled_after_s']:.1f} s", title_justify="left")
+    title = f"RMS acceleration, {low:g}-{high:g} Hz, after {summary['settled_after_s']:.1f} s"
+    table = Table(title=title, title_justify="left")
     table.add_column("m/s²")
     for axis, name in zip(AXES, ("longitudinal x", "lateral y", "vertical z"), strict=True):
         table.add_column(name, justify="right")
@@ -140,14 +141,13 @@ def _print_summary(console, summary, folder):
         table.add_row(sensor, *(f"{summary['rms_mps2'][sensor][axis]:.3f}" for axis in AXES))
     console.print(table)
     loop = summary["loop"]
-    console.print(
+    for line in (
         f"loop: {loop['samples']} samples; lost {loop['lost_chassis']} chassis, {loop['lost_powertrain']} powertrain; "
         f"unanswered {loop['unanswered']}; late {loop['late']}; rejected "
-        f"{int(loop['early']) + int(loop['duplicate']) + int(loop['not_finite'])}; saturated {loop['saturated']}"
-    )
-    console.print(
+        f"{int(loop['early']) + int(loop['duplicate']) + int(loop['not_finite'])}; saturated {loop['saturated']}",
         f"pace: {float(loop['real_time_factor']):.2f} x real time; of each period physics "
         f"{loop['physics_us_per_period']} us, publishing {loop['publishing_us_per_period']} us, waiting for the answer "
-        f"{loop['waiting_us_per_period']} us"
-    )
-    console.print(f"left in {folder}: bag/, summary.json, summary.txt, run.png, log/")
+        f"{loop['waiting_us_per_period']} us",
+        f"left in {folder}: bag/, summary.json, summary.txt, run.png, log/",
+    ):
+        console.print(line, soft_wrap=True)

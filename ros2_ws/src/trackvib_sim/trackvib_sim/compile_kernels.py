@@ -12,12 +12,11 @@ from .vehicle.system import Operation
 
 
 def main():
-    """Run the closed loop for two periods and look at a mount."""
+    """Run the closed loop for two periods."""
     vehicle, _ = read_vehicle(default_vehicle_file())
     settings = RunSettings(Operation(10.0, 1650.0, False), Rates(), 1.0)
     simulation = Simulation(vehicle, settings)
     run_closed_loop(simulation, Iso8608Road("E", 1, 8.0, 8.0), Passive(settings.rates.period / NANO), 2)
-    simulation.mount(0)
 
 
 if __name__ == "__main__":

@@ -42,15 +42,15 @@ class MountMessage:
         self._message = MountState()
         self._message.header.frame_id = topics.HULL_FRAME
 
-    def fill(self, stamp, mounts):
-        """Return the message; `mounts` holds two results of `Simulation.mount`."""
+    def fill(self, stamp, sample):
+        """Return the message for a `vehicle.mr_mounts.MountSample`."""
         m = self._message
         set_stamp(m, stamp)
-        for i, (current, stiffness, damping, deflection, velocity, force, power) in enumerate(mounts):
-            m.current[i], m.stiffness[i], m.damping[i], m.dissipated_power[i] = current, stiffness, damping, power
-            set_vector(m.deflection[i], deflection)
-            set_vector(m.velocity[i], velocity)
-            set_vector(m.force[i], force)
+        m.current, m.stiffness, m.damping = sample.current, sample.stiffness, sample.damping
+        m.dissipated_power = sample.dissipated_power
+        for name in ("deflection", "velocity", "force"):
+            for vector, values in zip(getattr(m, name), getattr(sample, name).tolist(), strict=True):
+                set_vector(vector, values)
         return m
 
 
@@ -62,15 +62,15 @@ class OdometryMessage:
         self._message.header.frame_id = topics.ROAD_FRAME
         self._message.child_frame_id = topics.HULL_FRAME
 
-    def fill(self, stamp, state, velocity, rate):
-        """Return the message for a `rui.tree.TreeState`; velocity and rate of the hull in its own axes."""
+    def fill(self, stamp, state, sample):
+        """Return the message for a `rui.tree.TreeState` and the `simulation.step.Sample` of the same instant."""
         m = self._message
         set_stamp(m, stamp)
         set_vector(m.pose.pose.position, state.position.tolist())
         o = m.pose.pose.orientation
         o.w, o.x, o.y, o.z = state.attitude.tolist()
-        set_vector(m.twist.twist.linear, velocity)
-        set_vector(m.twist.twist.angular, rate)
+        set_vector(m.twist.twist.linear, sample.hull_velocity[0].tolist())
+        set_vector(m.twist.twist.angular, sample.hull_rate[0].tolist())
         return m
 
 

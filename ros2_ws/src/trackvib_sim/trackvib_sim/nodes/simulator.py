@@ -198,7 +198,7 @@ class SimulatorNode(LoopNode):
         self._exchange.publish(stamp)
         for sensor in (CHASSIS, POWERTRAIN):
             self._imu_out[sensor].publish(self._imus[sensor].fill(stamp, force[sensor], rate[sensor]))
-        self._mount_out.publish(self._mounts.fill(stamp, (simulation.mount(0), simulation.mount(1))))
+        self._mount_out.publish(self._mounts.fill(stamp, simulation.sample.mounts))
         if simulation.periods % (rates.control // rates.odometry) == 0:
             self._publish_odometry()
         if simulation.periods % (rates.control // 10) == 0:
@@ -206,10 +206,8 @@ class SimulatorNode(LoopNode):
 
     def _publish_odometry(self):
         simulation = self._simulation
-        velocity, rate = simulation.hull_velocity()
-        self._odometry_out.publish(
-            self._odometry.fill(simulation.time, simulation.state.tree, velocity, rate)
-        )
+        odometry = self._odometry.fill(simulation.time, simulation.state.tree, simulation.sample)
+        self._odometry_out.publish(odometry)
         self._time.clock.sec, self._time.clock.nanosec = divmod(simulation.time, NANO)
         self._clock_out.publish(self._time)
 

@@ -42,7 +42,7 @@ def run_closed_loop(simulation, road, law, periods):
         for start, spacing, heights in feeder.patches(simulation.distance):
             simulation.road.add(start, spacing, *heights)
         simulation.advance(exchange.currents)
-        force, rate = simulation.sample
+        force, rate = simulation.sample.specific_force, simulation.sample.rate
         sample = Sample(
             simulation.time / NANO,
             tuple(force[CHASSIS].tolist()),

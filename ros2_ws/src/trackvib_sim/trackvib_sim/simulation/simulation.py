@@ -1,15 +1,13 @@
 """The vehicle in motion: holds system, state and road, and advances one control period at a time."""
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from ..road.store import RoadStore
 from ..vehicle.equilibrium import rolling_state
-from ..vehicle.mr_mounts import mount_characteristics, mount_deflection, mount_force
 from ..vehicle.running_gear.wheels_on_road import FOOTPRINT
 from ..vehicle.system import build_system, new_work
 from .settings import NANO
-from .step import Sensors, advance, new_sample
+from .step import Sensors, advance, new_sample, observe
 
 CHASSIS, POWERTRAIN = 0, 1  # rows of the sample
 _LOOK_AHEAD = 0.5  # m beyond the road that one period can need
@@ -25,8 +23,8 @@ class Simulation:
     Attributes
     ----------
     sample : step.Sample
-        Means over the last control period at the two ends of the mounts: rows `CHASSIS` and `POWERTRAIN`, body axes.
-        The sensors sit in the middle between the two mounts.
+        Of the last control period; rows `CHASSIS` and `POWERTRAIN` are the two ends of the mounts, in the middle
+        between left and right. Before the first period only its state, not its means, is filled.
     state : vehicle.system.State
     road : road.store.RoadStore
         To be filled by the caller, as far ahead as `road_is_enough` asks.
@@ -46,6 +44,7 @@ class Simulation:
         )
         self.sample = new_sample(self.sensors)
         self._work = new_work(self.system)
+        observe(self.system, self.state, self._work.motion, self.sample)
         reach = max(abs(x) for x in vehicle.swing_arms.wheel_x) + vehicle.swing_arms.length + FOOTPRINT
         self._reach = reach + _LOOK_AHEAD
 
@@ -84,23 +83,6 @@ class Simulation:
         if not finite:
             raise RunFailed(f"the state is no longer finite after t = {self.time / NANO:.3f} s")
         self.periods += 1
-
-    def hull_velocity(self):
-        """Return velocity of the hull's origin [m/s] and angular velocity [rad/s], both in the hull's axes."""
-        state = self.state.tree
-        to_hull = Rotation.from_quat(state.attitude, scalar_first=True).inv()
-        return to_hull.apply(state.velocity).tolist(), to_hull.apply(state.rate).tolist()
-
-    def mount(self, index):
-        """Return current, stiffness, damping, deflection, velocity, force on the powertrain and dissipated power.
-
-        Of mount `index` (0 left, 1 right) at the end of the last period; SI units, vectors in hull axes.
-        """
-        mounts, current = self.system.mounts, self.state.currents[index]
-        _, deflection, velocity = mount_deflection(mounts, self._work.motion, index)
-        stiffness, damping = mount_characteristics(mounts, current)
-        force, power = mount_force(mounts, current, deflection, velocity)
-        return current, stiffness, damping, deflection, velocity, force, power
 
     def _stretch(self):
         return self.road.around(self.distance - self._reach, self.distance + self._reach)

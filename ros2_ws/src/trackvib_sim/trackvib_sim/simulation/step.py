@@ -8,12 +8,12 @@ from ..rui.compiled import kernel
 from ..rui.kinematics import body_axes, integrate, point_place, update_motion
 from ..rui.loads import clear_loads
 from ..rui.riccati import point_acceleration, solve_accelerations
-from ..rui.spatial import add3, load3, subtract
+from ..rui.spatial import add3, load3, store3, subtract
 from ..vehicle.coil import drive_coils
 from ..vehicle.driver import add_driver
 from ..vehicle.engine import add_engine, imposed_displacement
 from ..vehicle.hinge_springs import add_hinge_springs
-from ..vehicle.mr_mounts import add_mounts
+from ..vehicle.mr_mounts import MountSample, add_mounts, new_mount_sample, observe_mounts
 from ..vehicle.running_gear.wheels_on_road import add_wheels_on_road
 from ..vehicle.suspension import add_suspension
 
@@ -26,16 +26,22 @@ class Sensors(NamedTuple):
 
 
 class Sample(NamedTuple):
-    """What the sensors measured over one control period: means, as integrating instruments give them."""
+    """What one control period leaves to look at.
+
+    Sensors give means over the period, as integrating instruments do; the rest is the state at its end.
+    """
 
     specific_force: np.ndarray  # (m, 3) acceleration less gravity, body axes, m/s^2
     rate: np.ndarray  # (m, 3) angular velocity, body axes, rad/s
+    hull_velocity: np.ndarray  # (1, 3) of the hull's origin, hull axes, m/s
+    hull_rate: np.ndarray  # (1, 3) hull axes, rad/s
+    mounts: MountSample
 
 
 def new_sample(sensors):
     """Return room for a sample."""
     m = len(sensors.body)
-    return Sample(np.zeros((m, 3)), np.zeros((m, 3)))
+    return Sample(np.zeros((m, 3)), np.zeros((m, 3)), np.zeros((1, 3)), np.zeros((1, 3)), new_mount_sample())
 
 
 @kernel
@@ -86,6 +92,15 @@ def advance(system, state, road, demanded, steps, work, sensors, sample):
         state.crank_angle[0] = (state.crank_angle[0] + dt * system.engine.speed) % (4.0 * np.pi)
         if not np.isfinite(sweep.linear[0].sum() + sweep.angular[0].sum() + sweep.hinge_acceleration.sum()):
             return False
-    # leave places and speeds of the period's end behind, for whoever looks at the motion
-    update_motion(system.tree, state.tree, work.motion)
+    observe(system, state, work.motion, sample)
     return True
+
+
+@kernel
+def observe(system, state, motion, sample):
+    """Fill what a sample says about the end of the period."""
+    update_motion(system.tree, state.tree, motion)
+    store3(sample.hull_velocity, 0, body_axes(motion, 0, load3(motion.velocity, 0)))
+    store3(sample.hull_rate, 0, body_axes(motion, 0, load3(motion.rate, 0)))
+    displacement, displacement_rate = imposed_displacement(system.engine, state.crank_angle[0])
+    observe_mounts(system.mounts, motion, state.currents, displacement, displacement_rate, sample.mounts)

@@ -12,7 +12,7 @@ import numpy as np
 from ..rui.compiled import kernel
 from ..rui.kinematics import body_axes, point_place, point_velocity
 from ..rui.loads import apply_force
-from ..rui.spatial import load3, load9, rotate, scale, subtract
+from ..rui.spatial import load3, load9, rotate, scale, store3, subtract
 
 KN_PER_MM = 1e6  # N/m
 
@@ -32,6 +32,24 @@ class MrMounts(NamedTuple):
     highest_current: float
     stiffness_ratio: np.ndarray  # (3,) x, y, z
     damping_ratio: np.ndarray  # (3,)
+
+
+class MountSample(NamedTuple):
+    """State of both mounts at one instant, vectors in hull axes."""
+
+    current: np.ndarray  # (2,) in the coil, A
+    stiffness: np.ndarray  # (2,) vertical, N/m
+    damping: np.ndarray  # (2,) vertical, N s/m
+    deflection: np.ndarray  # (2, 3) m
+    velocity: np.ndarray  # (2, 3) m/s
+    force: np.ndarray  # (2, 3) on the powertrain, N
+    dissipated_power: np.ndarray  # (2,) W
+
+
+def new_mount_sample():
+    """Return room for the state of both mounts."""
+    shapes = (2, 2, 2, (2, 3), (2, 3), (2, 3), 2)
+    return MountSample(*(np.zeros(shape) for shape in shapes))
 
 
 def mr_mounts(vehicle, rows):
@@ -68,16 +86,21 @@ def mount_characteristics(mounts, current):
 
 
 @kernel
-def mount_deflection(mounts, motion, index):
-    """Return upper place (global), deflection l and its rate l_d in hull axes [Tao2025, hinge 8]."""
+def mount_deflection(mounts, motion, index, imposed, imposed_rate):
+    """Return upper place (global), deflection l and its rate l_d in hull axes [Tao2025, hinge 8].
+
+    `imposed` [m] and `imposed_rate` [m/s] are the vertical displacement that the engine imposes across each mount in
+    the paper's way of exciting the powertrain; both are zero otherwise.
+    """
     upper = point_place(motion, mounts.powertrain, load3(mounts.upper, index))
     lower = point_place(motion, mounts.hull, load3(mounts.lower, index))
     # l_d = A7^T (v_B - v_26 - Om7 x (r_B - r_26)): the rate against the hull's own point at the same place
     relative = subtract(
         point_velocity(motion, mounts.powertrain, upper), point_velocity(motion, mounts.hull, upper)
     )
-    l = body_axes(motion, mounts.hull, subtract(upper, lower))  # noqa: E741 - the paper's symbol
-    return upper, l, body_axes(motion, mounts.hull, relative)
+    x, y, z = body_axes(motion, mounts.hull, subtract(upper, lower))
+    v_x, v_y, v_z = body_axes(motion, mounts.hull, relative)
+    return upper, (x, y, z - imposed), (v_x, v_y, v_z - imposed_rate)
 
 
 @kernel
@@ -96,16 +119,24 @@ def mount_force(mounts, current, l, l_d):  # noqa: E741 - the paper's symbols
 
 @kernel
 def add_mounts(mounts, motion, loads, currents, imposed, imposed_rate):
-    """Add the mounts' forces to powertrain and hull.
-
-    `imposed` [m] and `imposed_rate` [m/s] are the vertical displacement that the engine imposes across each mount in
-    the paper's way of exciting the powertrain; both are zero otherwise.
-    """
+    """Add the mounts' forces to powertrain and hull; `imposed` as in `mount_deflection`."""
     for index in range(2):
-        upper, l, l_d = mount_deflection(mounts, motion, index)  # noqa: E741
-        l = (l[0], l[1], l[2] - imposed)  # noqa: E741
-        l_d = (l_d[0], l_d[1], l_d[2] - imposed_rate)
+        upper, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)  # noqa: E741
         force, _ = mount_force(mounts, currents[index], l, l_d)
         force = rotate(load9(motion.rotation, mounts.hull), force)
         apply_force(loads, motion, mounts.powertrain, upper, force)
         apply_force(loads, motion, mounts.hull, upper, scale(-1.0, force))
+
+
+@kernel
+def observe_mounts(mounts, motion, currents, imposed, imposed_rate, sample):
+    """Fill a `MountSample`."""
+    for index in range(2):
+        _, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)  # noqa: E741
+        k, c = mount_characteristics(mounts, currents[index])
+        force, power = mount_force(mounts, currents[index], l, l_d)
+        sample.current[index], sample.stiffness[index], sample.damping[index] = currents[index], k, c
+        store3(sample.deflection, index, l)
+        store3(sample.velocity, index, l_d)
+        store3(sample.force, index, force)
+        sample.dissipated_power[index] = power

@@ -1,0 +1,161 @@
+"""Magnetorheological mounts: the paper's fits, their clamp, and the force pair between hull and powertrain."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+from scipy.optimize import brentq
+from scipy.spatial.transform import Rotation
+from trackvib_sim.rui.kinematics import point_velocity
+from trackvib_sim.rui.loads import new_loads
+from trackvib_sim.rui.tree import rest_state
+from trackvib_sim.vehicle.mr_mounts import add_mounts, mount_characteristics, mount_deflection, mount_force
+
+CURRENTS = st.floats(-1e3, 1e3)
+METRES = st.tuples(*[st.floats(-0.1, 0.1)] * 3)
+SPEEDS = st.tuples(*[st.floats(-10.0, 10.0)] * 3)
+SEEDS = st.integers(0, 2**32 - 1)
+FEW = settings(max_examples=30, deadline=None)
+
+
+@pytest.mark.literature
+@pytest.mark.parametrize(
+    ("current", "stiffness", "ratio", "damping"),
+    [(1.0, 3.196e6, 0.1507, 1.704e4), (2.0, 4.573e6, 0.4179, 5.652e4), (3.0, 5.283e6, 0.5169, 7.514e4)],
+)
+def test_fits_give_the_printed_values(system, current, stiffness, ratio, damping):
+    """k, zeta and c at 1, 2 and 3 A are the printed ones to their four digits."""
+    k, c = mount_characteristics(system.mounts, current)
+    assert k == pytest.approx(stiffness, abs=0.5e3)
+    assert c == pytest.approx(damping, abs=5.0)
+    assert c / (2.0 * np.sqrt(k * system.mounts.carried_mass)) == pytest.approx(ratio, abs=0.5e-4)
+
+
+@pytest.mark.literature
+def test_natural_frequency_is_the_papers(system):
+    """Where a mount has the paper's 3 kN/mm, it carries its mass at the paper's 8.7 Hz."""
+    m = system.mounts
+    current = brentq(lambda i: mount_characteristics(m, i)[0] - 3e6, m.lowest_current, m.highest_current)
+    k, _ = mount_characteristics(m, current)
+    assert np.sqrt(k / m.carried_mass) / (2.0 * np.pi) == pytest.approx(8.7, abs=0.05)
+    assert current == pytest.approx(0.894, abs=0.5e-3)
+    assert m.static_load == 9800.0
+
+
+@pytest.mark.property
+@settings(deadline=None)
+@given(current=CURRENTS)
+def test_current_is_clamped_to_the_valid_range(system, current):
+    """Outside the fits' range a mount is as at the range's end."""
+    m = system.mounts
+    clamped = min(max(current, m.lowest_current), m.highest_current)
+    assert mount_characteristics(m, current) == mount_characteristics(m, clamped)
+
+
+@pytest.mark.property
+@settings(deadline=None)
+@given(current=CURRENTS, l=METRES, l_d=SPEEDS)
+def test_damping_never_drives(system, current, l, l_d):
+    """Whatever range the file allows, damping is never negative and takes power from every motion."""
+    wide = system.mounts._replace(lowest_current=0.0, highest_current=6.0)
+    for mounts in (system.mounts, wide):
+        k, c = mount_characteristics(mounts, current)
+        assert k > 0.0 and c >= 0.0
+        force, power = mount_force(mounts, current, l, l_d)
+        still, _ = mount_force(mounts, current, l, (0.0, 0.0, 0.0))
+        taken = -np.dot(np.subtract(force, still), l_d)
+        assert power >= 0.0
+        # differences of forces up to 1e6 N
+        assert taken == pytest.approx(power, rel=1e-9, abs=1e-7)
+
+
+@pytest.mark.literature
+def test_fit_without_damping_is_cut_at_zero(system):
+    """Below 0.641 A, where the paper's zeta(I) is negative, a mount allowed to go there has no damping."""
+    wide = system.mounts._replace(lowest_current=0.0)
+    assert mount_characteristics(wide, 0.0)[1] == 0.0
+    assert mount_characteristics(wide, 0.640)[1] == 0.0
+    assert mount_characteristics(wide, 0.643)[1] > 0.0
+
+
+@pytest.mark.analytic
+def test_force_law_by_axis(system):
+    """Each axis has its ratio of k and c; the vertical one also carries the rated load."""
+    m, l, l_d = system.mounts, (0.001, -0.002, 0.003), (0.1, 0.2, -0.3)
+    k, c = mount_characteristics(m, 1.5)
+    expected = -k * m.stiffness_ratio * l - c * m.damping_ratio * l_d + (0.0, 0.0, 9800.0)
+    assert_allclose(mount_force(m, 1.5, l, l_d)[0], expected, rtol=1e-14)
+
+
+def _shifted(state, dt):
+    turned = Rotation.from_rotvec(dt * state.rate) * Rotation.from_quat(state.attitude, scalar_first=True)
+    return state._replace(
+        position=state.position + dt * state.velocity,
+        attitude=turned.as_quat(scalar_first=True),
+        hinge=state.hinge + dt * state.hinge_rate,
+    )
+
+
+@pytest.mark.analytic
+@FEW
+@given(seed=SEEDS, index=st.integers(0, 1))
+def test_deflection_rate_is_the_rate_of_deflection(system, random_state, moved, seed, index):
+    """l_d is the time derivative of l along any moving state."""
+    state, h = random_state(system.tree, seed), 1e-5
+    _, _, l_d = mount_deflection(system.mounts, moved(system.tree, state), index)
+    before, after = (
+        np.array(mount_deflection(system.mounts, moved(system.tree, _shifted(state, t)), index)[1]) for t in (-h, h)
+    )
+    # central difference as in the places: h^2 of the third derivative, 1e-15 / h of rounding
+    assert_allclose((after - before) / (2.0 * h), l_d, rtol=0, atol=1e-8)
+
+
+@pytest.mark.property
+@FEW
+@given(seed=SEEDS, left=st.floats(0.0, 5.0), right=st.floats(0.0, 5.0))
+def test_force_pair_leaves_total_momentum_alone(system, random_state, moved, seed, left, right):
+    """Forces and moments on hull and powertrain cancel about any point, and act on nothing else."""
+    motion, loads = moved(system.tree, random_state(system.tree, seed)), new_loads(len(system.tree.mass))
+    add_mounts(system.mounts, motion, loads, np.array([left, right]), 1e-4, 0.02)
+    moment = loads.moment + np.cross(motion.origin, loads.force)
+    assert np.abs(loads.force).max() > 0.0
+    assert_allclose(loads.force.sum(0), 0.0, atol=1e-12 * np.abs(loads.force).max())
+    assert_allclose(moment.sum(0), 0.0, atol=1e-12 * np.abs(moment).max())
+    touched = np.flatnonzero(np.abs(loads.force).sum(1))
+    assert set(touched) == {system.mounts.hull, system.mounts.powertrain}
+    assert not loads.torque.any()
+
+
+@pytest.mark.property
+@FEW
+@given(seed=SEEDS)
+def test_force_pair_does_the_work_of_the_mounts(system, random_state, moved, seed):
+    """The pair's power on both bodies is the sum of force times deflection rate of the two mounts."""
+    m, currents = system.mounts, np.array([1.0, 2.0])
+    motion, loads = moved(system.tree, random_state(system.tree, seed)), new_loads(len(system.tree.mass))
+    add_mounts(m, motion, loads, currents, 0.0, 0.0)
+    power = sum(
+        np.dot(loads.force[b], point_velocity(motion, b, tuple(motion.origin[b])))
+        + np.dot(loads.moment[b], motion.rate[b])
+        for b in (m.hull, m.powertrain)
+    )
+    expected = 0.0
+    for index in range(2):
+        _, l, l_d = mount_deflection(m, motion, index)
+        expected += np.dot(mount_force(m, currents[index], l, l_d)[0], l_d)
+    size = np.abs(loads.force).max() * np.abs(motion.velocity).max() + np.abs(loads.moment).max()
+    assert power == pytest.approx(expected, abs=1e-11 * size)
+
+
+@pytest.mark.analytic
+def test_imposed_displacement_acts_across_the_mounts(system, moved):
+    """A displacement d imposed at a rate d' pushes each side as a deflection -d at a rate -d' would."""
+    state = rest_state(system.tree)
+    motion = moved(system.tree, state)
+    k, c = mount_characteristics(system.mounts, 1.0)
+    loads = [new_loads(len(system.tree.mass)) for _ in range(2)]
+    for record, (d, d_rate) in zip(loads, ((0.0, 0.0), (2e-4, 0.05)), strict=True):
+        add_mounts(system.mounts, motion, record, np.array([1.0, 1.0]), d, d_rate)
+    push = (loads[1].force - loads[0].force)[[system.mounts.powertrain, system.mounts.hull], 2]
+    assert_allclose(push, [2.0 * (k * 2e-4 + c * 0.05), -2.0 * (k * 2e-4 + c * 0.05)], rtol=1e-9)

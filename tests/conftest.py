@@ -1,0 +1,107 @@
+"""What the system tests share: real processes in a ROS domain of their own."""
+
+import itertools
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from ament_index_python.packages import get_package_prefix
+
+PACKAGES = {
+    "simulator": "trackvib_sim",
+    "road_excitation": "trackvib_sim",
+    "recorder": "trackvib_sim",
+    "controller": "mr_mount_controller",
+}
+# Only a bound for what hangs; nothing here measures speed.
+PATIENCE = 90.0
+_domains = itertools.cycle(range(60, 100))
+
+
+class Process:
+    """A running process with everything it prints."""
+
+    def __init__(self, command, log, env):
+        self._log = log
+        with log.open("wb") as file:
+            self._process = subprocess.Popen(
+                command, stdin=subprocess.DEVNULL, stdout=file, stderr=subprocess.STDOUT, start_new_session=True, env=env
+            )
+        self.pid = self._process.pid
+
+    @property
+    def output(self):
+        """All that it has printed so far."""
+        return self._log.read_text(errors="replace")
+
+    @property
+    def running(self):
+        return self._process.poll() is None
+
+    def wait(self):
+        """Wait for its end; returns the exit code."""
+        try:
+            return self._process.wait(PATIENCE)
+        except subprocess.TimeoutExpired:
+            raise AssertionError(f"did not end; it printed:\n{self.output}") from None
+
+    def wait_for(self, text):
+        """Wait until it has printed a text."""
+        end = time.monotonic() + PATIENCE
+        while text not in self.output:
+            if not self.running or time.monotonic() > end:
+                assert text in self.output, f"never printed {text!r} but:\n{self.output}"
+            time.sleep(0.05)
+
+    def signal(self, number):
+        """Send a signal to the whole process group, as a terminal does."""
+        os.killpg(self.pid, number)
+
+    def clean_up(self):
+        if self.running:
+            self.signal(signal.SIGKILL)
+            self._process.wait()
+
+
+@pytest.fixture
+def env():
+    """The environment with a ROS domain that no other test uses at the time."""
+    return {**os.environ, "ROS_DOMAIN_ID": str(next(_domains)), "PYTHONUNBUFFERED": "1"}
+
+
+@pytest.fixture
+def start(tmp_path, env):
+    """Start processes that end with the test: `start(command)`."""
+    processes = []
+
+    def make(command):
+        log = tmp_path / f"process_{len(processes)}.log"
+        processes.append(Process([str(word) for word in command], log, env))
+        return processes[-1]
+
+    yield make
+    for process in processes:
+        process.clean_up()
+
+
+@pytest.fixture
+def start_node(start):
+    """Start one of the nodes by its installed executable: `start_node("simulator", speed=5.0)`."""
+
+    def make(name, *arguments, **parameters):
+        package = PACKAGES[name]
+        command = [f"{get_package_prefix(package)}/lib/{package}/{name}", *arguments, "--ros-args"]
+        for parameter, value in parameters.items():
+            command += ["-p", f"{parameter}:={str(value).lower() if isinstance(value, bool) else value}"]
+        return start(command)
+
+    return make
+
+
+@pytest.fixture
+def start_cli(start):
+    """Start the command line: `start_cli("run", "--speed", 5)`."""
+    return lambda *arguments: start([sys.executable, "-m", "trackvib_sim.cli", *arguments])

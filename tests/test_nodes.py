@@ -1,0 +1,98 @@
+"""Each node alone: start, waiting, bad parameters, clean end."""
+
+import itertools
+import signal
+
+import pytest
+
+pytestmark = pytest.mark.system
+
+WAITING = {
+    "simulator": "waiting for a road",
+    "road_excitation": "waiting for a vehicle",
+    "controller": "waiting for accelerations",
+    "recorder": "waiting for",
+}
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("name", WAITING)
+def test_waits_and_ends_cleanly(start_node, tmp_path, name, number):
+    """Alone, a node says once what it waits for, and ends with code 0 on the first signal, even if two come."""
+    node = start_node(name, **({"bag": tmp_path / "bag"} if name == "recorder" else {}))
+    node.wait_for(WAITING[name])
+    node.signal(number)
+    node.signal(number)
+    assert node.wait() == 0, node.output
+    assert node.output.count("waiting for") == 1
+    assert "Traceback" not in node.output
+
+
+@pytest.mark.parametrize(
+    ("name", "parameters", "words"),
+    [
+        ("simulator", {"speed": 80.0}, ["'speed'", "80.0", "0 to 25 m/s"]),
+        ("simulator", {"speed": "fast"}, ["'speed'", "'fast'", "a number"]),
+        ("simulator", {"sped": 5.0}, ["'sped'", "known are", "speed"]),
+        ("simulator", {"pace": "slow"}, ["'pace'", "'slow'", "lockstep, realtime"]),
+        ("simulator", {"control_rate": 3000}, ["physics_rate 10000", "control_rate 3000", "clash"]),
+        ("simulator", {"engine_speed": 200.0}, ["'engine_speed'", "200.0", "450 to 2100"]),
+        ("simulator", {"vehicle_file": "/nowhere.yaml"}, ["'vehicle_file'", "/nowhere.yaml"]),
+        ("road_excitation", {"road_class": "Q"}, ["'road_class'", "'Q'", "A, B, C, D, E, F, G, H"]),
+        ("road_excitation", {"seed": -1}, ["'seed'", "-1", "0 to"]),
+        ("controller", {"law": "magic"}, ["'law'", "'magic'", "passive", "skyhook"]),
+        ("controller", {"law": "json:JSONDecoder"}, ["'law'", "json:JSONDecoder", "ControlLaw"]),
+        ("controller", {"law": "skyhook", "firm_current": 9.0}, ["'firm_current'", "9.0", "0 to 5 A"]),
+        ("recorder", {"bag": "/proc/none/bag"}, ["/proc/none/bag", "cannot be made"]),
+    ],
+)
+def test_bad_parameter_is_refused_by_name(start_node, name, parameters, words):
+    """One error names the parameter, its value and what is accepted; the exit code is not 0."""
+    node = start_node(name, **parameters)
+    assert node.wait() != 0
+    for word in words:
+        assert word in node.output
+    assert node.output.count("error:") == 1 and "Traceback" not in node.output
+
+
+@pytest.mark.parametrize("order", list(itertools.permutations(("simulator", "road_excitation", "controller"))))
+def test_any_start_order(start_node, order):
+    """Whatever starts first, the loop runs; each node is waited for before the next starts."""
+    nodes = {}
+    for name in order:
+        parameters = {"duration": 0.3} if name == "simulator" else {}
+        nodes[name] = start_node(name, **parameters)
+        nodes[name].wait_for("waiting for")
+    assert nodes["simulator"].wait() == 0, nodes["simulator"].output
+    assert "0.3 s simulated" in nodes["simulator"].output
+
+
+def test_two_simulators_do_not_mix(start_node):
+    """A second simulator in the same domain says so and ends; the first goes on."""
+    start_node("road_excitation")
+    start_node("controller")
+    first = start_node("simulator")
+    first.wait_for("running")
+    second = start_node("simulator")
+    assert second.wait() != 0
+    assert "another node publishes" in second.output and "ROS_DOMAIN_ID" in second.output
+    assert first.running
+
+
+def test_names_can_be_remapped_into_a_namespace(start_node, tmp_path):
+    """All nodes in one namespace find each other."""
+    inside = ("--ros-args", "-r", "__ns:=/left_lab", "--")
+    start_node("road_excitation", *inside)
+    start_node("controller", *inside)
+    simulator = start_node("simulator", *inside, duration=0.3)
+    assert simulator.wait() == 0, simulator.output
+
+
+def test_existing_bag_is_not_overwritten(start_node, tmp_path):
+    """A recorder pointed at an existing folder refuses and leaves it as it was."""
+    (tmp_path / "bag").mkdir()
+    (tmp_path / "bag" / "kept").write_text("precious")
+    recorder = start_node("recorder", bag=tmp_path / "bag")
+    assert recorder.wait() != 0
+    assert "exists already" in recorder.output
+    assert [path.name for path in (tmp_path / "bag").iterdir()] == ["kept"]

@@ -1,0 +1,149 @@
+"""`trackvib run`: the whole main job, by real processes, judged by what it leaves."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+from mcap.reader import make_reader
+from mr_mount_controller.laws.skyhook import Skyhook
+from rosbags.rosbag2 import Reader
+from trackvib_sim.bags.reading import read_drive
+from trackvib_sim.installed import default_vehicle_file
+from trackvib_sim.road.iso8608 import Iso8608Road
+from trackvib_sim.simulation.closed_loop import run_closed_loop
+from trackvib_sim.simulation.settings import NANO, Rates, RunSettings
+from trackvib_sim.simulation.simulation import Simulation
+from trackvib_sim.vehicle.parameters import read_vehicle
+from trackvib_sim.vehicle.system import Operation
+
+SAMPLES = 10_000
+LOOP_TOPICS = ("/chassis/imu", "/powertrain/imu", "/coil_current", "/mount_state")
+
+pytestmark = pytest.mark.system
+
+
+def run(folder, domain, *options):
+    """Do a run in a folder and return what it printed."""
+    command = [sys.executable, "-m", "trackvib_sim.cli", "run", "--law", "skyhook", "--out", str(folder), *options]
+    env = {**os.environ, "ROS_DOMAIN_ID": str(domain)}
+    done = subprocess.run(command, capture_output=True, text=True, env=env, timeout=300)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def first(tmp_path_factory):
+    """One run of 10 s on class E at 10 m/s: its folder and what it printed."""
+    folder = tmp_path_factory.mktemp("runs") / "first"
+    return folder, run(folder, 40)
+
+
+@pytest.fixture(scope="module")
+def drive(first):
+    """The bag of that run."""
+    return read_drive(first[0] / "bag")
+
+
+def stream(folder, topic):
+    """Return the serialised messages of a topic."""
+    with next((folder / "bag").glob("*.mcap")).open("rb") as file:
+        return [message.data for _, _, message in make_reader(file).iter_messages([topic])]
+
+
+def test_not_one_message_is_lost(drive):
+    """Stamps run from the first to the last period without gap, and every current answers its sample."""
+    expected = np.arange(1, SAMPLES + 1) * (NANO // 1000)
+    np.testing.assert_array_equal(drive.chassis.stamp, expected)
+    np.testing.assert_array_equal(drive.powertrain.stamp, expected)
+    np.testing.assert_array_equal(drive.answered, expected)
+    assert drive.counts["/mount_state"] == SAMPLES
+    # 100 a second and the one before the start
+    assert drive.counts["/odometry"] == SAMPLES // 10 + 1
+    assert [drive.diagnostics[key] for key in ("late", "duplicate", "early", "not_finite")] == ["0"] * 4
+    assert drive.diagnostics["state"] == "finished"
+
+
+def test_the_law_acts(drive):
+    """The skyhook switches between its two currents, and both reach the coils."""
+    assert set(np.unique(drive.current)) == {0.8, 3.0}
+
+
+def test_same_seed_gives_identical_streams(first, tmp_path):
+    """A second run with the same seed leaves the same bytes on every loop topic."""
+    run(tmp_path / "again", 41)
+    for topic in LOOP_TOPICS:
+        assert stream(first[0], topic) == stream(tmp_path / "again", topic), topic
+
+
+def test_another_seed_gives_another_run(first, tmp_path):
+    """Of another seed, the accelerations differ."""
+    run(tmp_path / "other", 42, "--seed", "2", "--duration", "4")
+    assert stream(tmp_path / "other", "/chassis/imu") != stream(first[0], "/chassis/imu")[:4000]
+
+
+def test_loop_in_one_process_is_identical(drive):
+    """The same vehicle, road and law in one process give the same samples and currents to the last bit."""
+    vehicle, _ = read_vehicle(default_vehicle_file())
+    simulation = Simulation(vehicle, RunSettings(Operation(10.0, 1650.0, False), Rates(), 1.0))
+    record = run_closed_loop(simulation, Iso8608Road("E", 1, 8.0, 8.0), Skyhook(1e-3), SAMPLES)
+    np.testing.assert_array_equal(record.specific_force[:, 0], drive.chassis.specific_force)
+    np.testing.assert_array_equal(record.specific_force[:, 1], drive.powertrain.specific_force)
+    np.testing.assert_array_equal(record.rate[:, 0], drive.chassis.rate)
+    np.testing.assert_array_equal(record.current, drive.current)
+
+
+def test_bag_opens_as_a_rosbag2(first):
+    """`rosbags` reads the folder by its metadata.yaml, and its counts are those of the messages."""
+    with Reader(first[0] / "bag") as reader:
+        assert reader.message_count == sum(1 for _ in reader.messages())
+        assert reader.duration >= 9_999_000_000
+        assert {c.topic for c in reader.connections} >= {*LOOP_TOPICS, "/road_profile", "/clock", "/diagnostics"}
+
+
+def test_bag_is_a_ros2_mcap(first):
+    """Profile, schema encoding, message encoding and QoS are those that rosbag2 writes."""
+    with next((first[0] / "bag").glob("*.mcap")).open("rb") as file:
+        reader = make_reader(file)
+        assert reader.get_header().profile == "ros2"
+        summary = reader.get_summary()
+    for channel in summary.channels.values():
+        assert channel.message_encoding == "cdr"
+        assert summary.schemas[channel.schema_id].encoding == "ros2msg"
+        offered = yaml.safe_load(channel.metadata["offered_qos_profiles"])
+        assert offered[0]["reliability"] == ("best_effort" if channel.topic == "/clock" else "reliable")
+
+
+def test_bag_knows_what_made_it(drive):
+    """Seed, parameters of every node and versions lie in the bag."""
+    assert drive.provenance["parameters of /road_excitation"]["seed"] == "1"
+    assert drive.provenance["parameters of /simulator"]["speed"] == "10.0"
+    assert drive.provenance["parameters of /controller"]["law"] == "skyhook"
+    assert drive.provenance["versions"]["numpy"] == np.__version__
+    assert drive.counts["/vehicle_description"] == 1
+
+
+def test_summary_and_picture(first):
+    """The summary is printed and saved, with its band; the picture is a PNG of some size."""
+    folder, printed = first
+    summary = json.loads((folder / "summary.json").read_text())
+    assert summary["band_hz"] == [0.5, 500.0]
+    assert 0.5 < summary["rms_mps2"]["powertrain"]["z"] < 5.0
+    assert f"{summary['rms_mps2']['powertrain']['z']:.3f}" in printed
+    assert float(summary["loop"]["real_time_factor"]) > 0.0
+    assert (folder / "summary.txt").read_text().strip() in printed.replace("\r", "")
+    picture = (folder / "run.png").read_bytes()
+    assert picture.startswith(b"\x89PNG") and len(picture) > 50_000
+
+
+def test_a_folder_is_never_overwritten(first):
+    """A second run into the same folder is refused and leaves it as it was."""
+    before = sorted(Path(first[0]).rglob("*"))
+    command = [sys.executable, "-m", "trackvib_sim.cli", "run", "--out", str(first[0])]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    assert done.returncode != 0 and "exists already" in done.stderr
+    assert sorted(Path(first[0]).rglob("*")) == before
