@@ -24,11 +24,17 @@ _domains = itertools.cycle(range(60, 100))
 class Process:
     """A running process with everything it prints."""
 
-    def __init__(self, command, log, env):
+    def __init__(self, command, log, env, folder):
         self._log = log
         with log.open("wb") as file:
             self._process = subprocess.Popen(
-                command, stdin=subprocess.DEVNULL, stdout=file, stderr=subprocess.STDOUT, start_new_session=True, env=env
+                command,
+                stdin=subprocess.DEVNULL,
+                stdout=file,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+                env=env,
+                cwd=folder,
             )
         self.pid = self._process.pid
 
@@ -79,7 +85,7 @@ def start(tmp_path, env):
 
     def make(command):
         log = tmp_path / f"process_{len(processes)}.log"
-        processes.append(Process([str(word) for word in command], log, env))
+        processes.append(Process([str(word) for word in command], log, env, tmp_path))
         return processes[-1]
 
     yield make

@@ -47,8 +47,12 @@ class Parameter:
         good = type(value) is type(self.default)
         if good and self.choices:
             good = value in self.choices
+        if good and isinstance(value, float):
+            good = isfinite(value)
+        if good and isinstance(value, list):
+            good = all(type(each) is str for each in value)
         if good and self.low is not None:
-            good = isfinite(value) and self.low <= value <= self.high
+            good = self.low <= value <= self.high
         if not good:
             raise ParameterError(f"parameter '{self.name}' is {value!r}, accepted is {self.accepted}")
         return value

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from hypothesis import settings
 from trackvib_sim.installed import default_vehicle_file
 from trackvib_sim.road.store import Road
 from trackvib_sim.rui.kinematics import new_motion, update_motion
@@ -15,6 +16,10 @@ from trackvib_sim.simulation.simulation import Simulation
 from trackvib_sim.vehicle.body_tree import body_table
 from trackvib_sim.vehicle.parameters import read_vehicle
 from trackvib_sim.vehicle.system import Operation, build_system
+
+# the first example of a test may load a kernel, which takes its time; nothing is kept between runs
+settings.register_profile("unit", deadline=None, database=None)
+settings.load_profile("unit")
 
 
 @pytest.fixture(scope="session")

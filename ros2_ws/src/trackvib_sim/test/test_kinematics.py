@@ -11,7 +11,7 @@ from trackvib_sim.rui.spatial import turn_quaternion
 from trackvib_sim.rui.tree import rest_state
 
 SEEDS = st.integers(0, 2**32 - 1)
-FEW = settings(max_examples=20, deadline=None)
+FEW = settings(max_examples=20)
 
 
 def drifted(state, dt):
@@ -56,7 +56,6 @@ def test_rate_is_the_rate_of_attitude(system, random_state, moved, seed):
 
 @pytest.mark.property
 @given(seed=SEEDS, dt=st.floats(1e-9, 2.0))
-@settings(deadline=None)
 def test_turning_a_quaternion_is_a_rotation(seed, dt):
     """An attitude turned at a constant rate is scipy's and stays a unit quaternion, whatever the angle."""
     random = np.random.default_rng(seed)

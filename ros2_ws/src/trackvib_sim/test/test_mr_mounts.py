@@ -10,13 +10,20 @@ from scipy.spatial.transform import Rotation
 from trackvib_sim.rui.kinematics import point_velocity
 from trackvib_sim.rui.loads import new_loads
 from trackvib_sim.rui.tree import rest_state
-from trackvib_sim.vehicle.mr_mounts import add_mounts, mount_characteristics, mount_deflection, mount_force
+from trackvib_sim.vehicle.mr_mounts import (
+    add_mounts,
+    mount_characteristics,
+    mount_deflection,
+    mount_force,
+    new_mount_sample,
+    observe_mounts,
+)
 
 CURRENTS = st.floats(-1e3, 1e3)
 METRES = st.tuples(*[st.floats(-0.1, 0.1)] * 3)
 SPEEDS = st.tuples(*[st.floats(-10.0, 10.0)] * 3)
 SEEDS = st.integers(0, 2**32 - 1)
-FEW = settings(max_examples=30, deadline=None)
+FEW = settings(max_examples=30)
 
 
 @pytest.mark.literature
@@ -44,7 +51,6 @@ def test_natural_frequency_is_the_papers(system):
 
 
 @pytest.mark.property
-@settings(deadline=None)
 @given(current=CURRENTS)
 def test_current_is_clamped_to_the_valid_range(system, current):
     """Outside the fits' range a mount is as at the range's end."""
@@ -54,7 +60,6 @@ def test_current_is_clamped_to_the_valid_range(system, current):
 
 
 @pytest.mark.property
-@settings(deadline=None)
 @given(current=CURRENTS, l=METRES, l_d=SPEEDS)
 def test_damping_never_drives(system, current, l, l_d):
     """Whatever range the file allows, damping is never negative and takes power from every motion."""
@@ -103,9 +108,10 @@ def _shifted(state, dt):
 def test_deflection_rate_is_the_rate_of_deflection(system, random_state, moved, seed, index):
     """l_d is the time derivative of l along any moving state."""
     state, h = random_state(system.tree, seed), 1e-5
-    _, _, l_d = mount_deflection(system.mounts, moved(system.tree, state), index)
+    _, _, l_d = mount_deflection(system.mounts, moved(system.tree, state), index, 0.0, 0.0)
     before, after = (
-        np.array(mount_deflection(system.mounts, moved(system.tree, _shifted(state, t)), index)[1]) for t in (-h, h)
+        np.array(mount_deflection(system.mounts, moved(system.tree, _shifted(state, t)), index, 0.0, 0.0)[1])
+        for t in (-h, h)
     )
     # central difference as in the places: h^2 of the third derivative, 1e-15 / h of rounding
     assert_allclose((after - before) / (2.0 * h), l_d, rtol=0, atol=1e-8)
@@ -142,7 +148,7 @@ def test_force_pair_does_the_work_of_the_mounts(system, random_state, moved, see
     )
     expected = 0.0
     for index in range(2):
-        _, l, l_d = mount_deflection(m, motion, index)
+        _, l, l_d = mount_deflection(m, motion, index, 0.0, 0.0)
         expected += np.dot(mount_force(m, currents[index], l, l_d)[0], l_d)
     size = np.abs(loads.force).max() * np.abs(motion.velocity).max() + np.abs(loads.moment).max()
     assert power == pytest.approx(expected, abs=1e-11 * size)
@@ -159,3 +165,22 @@ def test_imposed_displacement_acts_across_the_mounts(system, moved):
         add_mounts(system.mounts, motion, record, np.array([1.0, 1.0]), d, d_rate)
     push = (loads[1].force - loads[0].force)[[system.mounts.powertrain, system.mounts.hull], 2]
     assert_allclose(push, [2.0 * (k * 2e-4 + c * 0.05), -2.0 * (k * 2e-4 + c * 0.05)], rtol=1e-9)
+
+
+@pytest.mark.property
+@FEW
+@given(seed=SEEDS)
+def test_observed_mounts_are_those_that_act(system, random_state, moved, seed):
+    """What a sample says about the mounts is the force that acts on the powertrain, imposed displacement included."""
+    m, currents = system.mounts, np.array([0.9, 3.1])
+    motion, loads = moved(system.tree, random_state(system.tree, seed)), new_loads(len(system.tree.mass))
+    add_mounts(m, motion, loads, currents, 2e-4, 0.05)
+    sample = new_mount_sample()
+    observe_mounts(m, motion, currents, 2e-4, 0.05, sample)
+    turn = motion.rotation[m.hull].reshape(3, 3)
+    assert_allclose(turn @ sample.force.sum(0), loads.force[m.powertrain], rtol=1e-12)
+    assert_allclose(sample.current, currents)
+    for index in range(2):
+        assert (sample.stiffness[index], sample.damping[index]) == mount_characteristics(m, currents[index])
+        expected = sample.damping[index] * np.dot(m.damping_ratio, sample.velocity[index] ** 2)
+        assert sample.dissipated_power[index] == pytest.approx(expected, rel=1e-12)

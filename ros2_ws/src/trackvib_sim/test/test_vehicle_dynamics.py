@@ -13,7 +13,7 @@ from trackvib_sim.rui.tree import SLIDE
 SEEDS = st.integers(0, 2**32 - 1)
 # 41 bodies, some 1e2 operations each, at 1e-16; the measured rest is near 1e-14 of the largest value
 ROUNDING = 1e-11
-FEW = settings(max_examples=20, deadline=None)
+FEW = settings(max_examples=20)
 
 
 def newton_euler(tree, state, sweep):

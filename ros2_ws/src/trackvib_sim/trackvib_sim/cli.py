@@ -2,6 +2,7 @@
 
 import signal
 import sys
+from math import isfinite
 
 import click
 from mr_mount_controller.laws import find_law, known_laws
@@ -22,6 +23,16 @@ def _interrupt():
     raise KeyboardInterrupt
 
 
+class FiniteRange(click.FloatRange):
+    """A range of floats, to which "nan" does not belong (to click's own it does)."""
+
+    def convert(self, value, param, ctx):
+        number = super().convert(value, param, ctx)
+        if not isfinite(number):
+            self.fail(f"{value} is not in the range {self._describe_range()}.", param, ctx)
+        return number
+
+
 def _law(_context, _parameter, value):
     try:
         find_law(value)
@@ -33,8 +44,8 @@ def _law(_context, _parameter, value):
 @main.command()
 @click.option("--road-class", type=click.Choice(list(CLASSES), case_sensitive=False), default="E", show_default=True,
               help="Class of the road by ISO 8608.")
-@click.option("--speed", type=click.FloatRange(0.0, 25.0), default=10.0, show_default=True, help="Speed in m/s.")
-@click.option("--duration", type=click.FloatRange(0.1, 3600.0), default=10.0, show_default=True,
+@click.option("--speed", type=FiniteRange(0.0, 25.0), default=10.0, show_default=True, help="Speed in m/s.")
+@click.option("--duration", type=FiniteRange(0.1, 3600.0), default=10.0, show_default=True,
               help="Simulated time in s.")
 @click.option("--law", default="passive", show_default=True, callback=_law,
               help=f"Control law: {', '.join(known_laws())}, or package.module:Class.")

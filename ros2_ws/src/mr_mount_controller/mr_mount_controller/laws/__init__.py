@@ -37,7 +37,7 @@ def find_law(name):
         )
     try:
         law = getattr(import_module(module), attribute)
-    except (ImportError, AttributeError) as error:
+    except (ImportError, AttributeError, TypeError, ValueError) as error:
         raise ParameterError(f"parameter 'law' is {name!r}, which cannot be loaded: {error}") from None
     if not (isinstance(law, type) and issubclass(law, ControlLaw)):
         raise ParameterError(f"parameter 'law' is {name!r}, which is not a subclass of {ControlLaw.__name__}")

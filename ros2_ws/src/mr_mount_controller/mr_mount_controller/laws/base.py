@@ -65,7 +65,9 @@ def answer(law, sample):
     """
     result = law.update(sample)
     try:
-        currents = np.broadcast_to(np.asarray(result, dtype=float), (2,))
+        numbers = np.asarray(result)
+        # digits in a text and truth values are no currents, though numpy would make numbers of them
+        currents = np.broadcast_to(numbers.astype(float) if numbers.dtype.kind in "fiu" else np.nan, (2,))
     except (TypeError, ValueError):
         currents = np.full(2, np.nan)
     if not np.isfinite(currents).all():

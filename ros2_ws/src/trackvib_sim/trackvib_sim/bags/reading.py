@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from mcap.exceptions import McapError
 from mcap.reader import make_reader
-from rosbags.highlevel import AnyReader
+from rosbags.highlevel import AnyReader, AnyReaderError
+from rosbags.rosbag2 import ReaderError
 
 from .writing import BagError
 
@@ -43,7 +44,7 @@ def read_drive(path):
     path = Path(path)
     try:
         return _read(path)
-    except (OSError, McapError) as error:
+    except (OSError, McapError, AnyReaderError, ReaderError) as error:
         raise BagError(f"bag {str(path)!r} cannot be read: {error}") from None
 
 

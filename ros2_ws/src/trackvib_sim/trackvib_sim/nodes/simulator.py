@@ -35,6 +35,7 @@ from .messages import ImuMessage, MountMessage, OdometryMessage, diagnostics
 from .simulator_parameters import PARAMETERS
 from .timing import PhaseClock
 
+_SETTLING = 0.3  # s without a new partner; a controller's two subscriptions are not found in the same instant
 _FLUSH = Duration(seconds=2)  # for the last messages to arrive
 
 
@@ -110,22 +111,27 @@ class SimulatorNode(LoopNode):
     # --- waiting ---
 
     def _wait_for_partners(self):
-        listeners = 1 + self.settings["wait_for_recorder"]
-        missing = {
-            "a road on " + topics.ROAD_PROFILE: self._simulation.road_is_enough,
-            "a controller's currents on " + topics.COIL_CURRENT: lambda: self._answers.get_publisher_count() > 0,
-            "listeners to " + topics.CHASSIS_IMU: lambda: self._imu_out[0].get_subscription_count() >= listeners,
-            "listeners to " + topics.POWERTRAIN_IMU: lambda: self._imu_out[1].get_subscription_count() >= listeners,
-        }
-        if self.settings["wait_for_recorder"]:
-            for publisher, name in (
-                (self._mount_out, topics.MOUNT_STATE),
-                (self._diagnostics_out, topics.DIAGNOSTICS),
-                (self._clock_out, topics.CLOCK),
-            ):
-                missing["a recorder of " + name] = lambda publisher=publisher: publisher.get_subscription_count() > 0
-        self.get_logger().info("waiting for " + ", ".join(missing))
-        self.spin_until(lambda: all(there() for there in missing.values()))
+        """Wait until road, controller and recorder are there and nobody else has come for a moment."""
+        recorder = int(self.settings["wait_for_recorder"])
+        missing = [
+            f"a road on {topics.ROAD_PROFILE}",
+            f"a controller that listens to {topics.CHASSIS_IMU} or {topics.POWERTRAIN_IMU} and answers on "
+            f"{topics.COIL_CURRENT}",
+        ]
+        self.get_logger().info("waiting for " + ", ".join([*missing, *["a recorder"] * recorder]))
+        recorded = (*self._imu_out, self._mount_out, self._diagnostics_out, self._clock_out)
+        seen, since = None, 0.0
+
+        def complete():
+            nonlocal seen, since
+            listeners = [publisher.get_subscription_count() for publisher in recorded]
+            now = (self._simulation.road_is_enough(), self._answers.get_publisher_count(), *listeners)
+            if now != seen:
+                seen, since = now, time.monotonic()
+            there = now[0] and now[1] > 0 and max(listeners[:2]) > recorder and min(listeners) >= recorder
+            return there and time.monotonic() - since > _SETTLING
+
+        self.spin_until(complete)
         if self.count_publishers(topics.CHASSIS_IMU) > 1:
             raise NodeError(f"another node publishes {topics.CHASSIS_IMU} in this domain; set ROS_DOMAIN_ID or a namespace")
         if not self.stopping():
@@ -149,6 +155,8 @@ class SimulatorNode(LoopNode):
             if not answered():
                 self._exchange.counts["silent_periods"] += 1
             return
+        if self._silent:
+            self.get_logger().info("the controller is heard again, waiting for every answer")
         self._silent = self._heard = False
         if not self.spin_until(answered, self.settings["answer_timeout"]) and not self.stopping():
             self._exchange.counts["silent_periods"] += 1
@@ -231,7 +239,9 @@ class SimulatorNode(LoopNode):
     def _summary(self):
         simulated = self._simulation.time / NANO
         costs = ", ".join(f"{phase} {cost:.0f} us" for phase, cost in self._phases.costs().items())
-        return f"{simulated:g} s simulated at {self._phases.factor(simulated):.2f} x real time; a period: {costs}"
+        counts = ", ".join(f"{count} {name}" for name, count in self._exchange.counts.items() if count)
+        pace = f"{simulated:g} s simulated at {self._phases.factor(simulated):.2f} x real time; a period: {costs}"
+        return f"{pace}; answers: {counts}"
 
     # --- preparing ---
 

@@ -11,11 +11,12 @@ from ..rui.loads import clear_loads
 from ..rui.riccati import solve_accelerations
 from .hinge_springs import add_hinge_springs
 from .mr_mounts import add_mounts
-from .running_gear.wheels_on_road import add_wheels_on_road
+from .running_gear.wheels_on_road import add_wheels_on_road, radial_force
 from .suspension import add_suspension
 from .system import new_state, new_work
 
 TOLERANCE = 1e-8  # m/s^2 and rad/s^2 left over
+LEVEL = Road(-200, 0.1, np.zeros((2, 401)))
 
 
 class NoEquilibrium(ValueError):
@@ -47,21 +48,24 @@ def static_equilibrium(system, current):
     """
     state, work = new_state(system), new_work(system)
     state.currents[:] = current
-    level = Road(-200, 0.1, np.zeros((2, 401)))
-    held = np.concatenate((np.flatnonzero(system.springs.stiffness), system.suspension.row))
+    sprung = np.union1d(np.flatnonzero(system.springs.stiffness), system.mounts.powertrain)
+    held = np.concatenate((sprung, system.suspension.row))
 
     def residual(unknowns):
         state.tree.position[2] = unknowns[0]
         state.tree.attitude[:] = Rotation.from_euler("xy", unknowns[1:3]).as_quat(scalar_first=True)
         state.tree.hinge[held] = unknowns[3:]
-        _static_accelerations(system, state, level, work)
+        _static_accelerations(system, state, LEVEL, work)
         sweep = work.sweep
         return np.concatenate(([sweep.linear[0, 2]], sweep.angular[0, :2], sweep.hinge_acceleration[held]))
 
     guess = np.zeros(3 + len(held))
     guess[0] = -system.wheels.static_depth  # wheels must touch, or the residual does not feel the road
     found = root(residual, guess, method="hybr", options={"xtol": 1e-14, "eps": 1e-8})
-    left_over = np.abs(residual(found.x)).max()
+    residual(found.x)
+    sweep = work.sweep
+    # all of them: what nothing holds must not move either
+    left_over = max(np.abs(part).max() for part in (sweep.linear[0], sweep.angular[0], sweep.hinge_acceleration))
     if not left_over < TOLERANCE:
         raise NoEquilibrium(
             f"no static equilibrium: the best place found still accelerates by {left_over:.3g} m/s^2 (or rad/s^2), "
@@ -77,6 +81,9 @@ def rolling_state(system, current):
     update_motion(system.tree, state.tree, work.motion)
     speed = system.driver.speed
     state.tree.velocity[0] = speed
-    for row in system.wheels.row:
-        state.tree.hinge_rate[row] = speed / work.motion.origin[row, 2]
+    for side, row in zip(system.wheels.side, system.wheels.row, strict=True):
+        hub = tuple(work.motion.origin[row])
+        force, depth = radial_force(system.wheels, LEVEL, side, hub, (speed, 0.0, 0.0), (1.0, 0.0, 0.0))
+        along = force[2] / np.linalg.norm(force)  # of the speed, at the contact that the rubber's damping tilts
+        state.tree.hinge_rate[row] = speed * along / (system.wheels.radius - depth)
     return state

@@ -121,6 +121,12 @@ class ShockAbsorbers(Section):
     blow_off_force: Gain("N")
     blow_off_damping: Gain("N s/m")
 
+    @model_validator(mode="after")
+    def _whole_stations(self):
+        if any(station % 1.0 for station in self.stations):
+            raise ValueError(f"stations is {self.stations}, must be whole numbers")
+        return self
+
 
 class RoadWheels(Section):
     """Road wheels as discs about their axle."""
@@ -224,9 +230,11 @@ def parse_vehicle(text, name):
         The text is not YAML, or an item is missing, unknown, in the wrong unit or out of range.
     """
     try:
-        return Vehicle.model_validate(yaml.safe_load(text))
-    except yaml.YAMLError as error:
+        content = yaml.safe_load(text)
+    except (yaml.YAMLError, ValueError) as error:  # the latter from impossible dates
         raise VehicleFileError(f"{name}: not a YAML file: {error}") from None
+    try:
+        return Vehicle.model_validate(content)
     except ValidationError as error:
         raise VehicleFileError("\n".join(_sentence(name, each) for each in error.errors())) from None
 
@@ -249,6 +257,8 @@ def read_vehicle(path):
 def _sentence(name, error):
     item = ".".join(str(part) for part in error["loc"])
     reason = error["msg"].removeprefix("Value error, ")
+    if error["type"] in ("model_type", "model_attributes_type"):
+        return f"{name}: {item or 'the whole file'} is {error['input']!r}: must be a section with items"
     if error["type"] in ("missing", "value_error"):
         return f"{name}: {item}: {reason}" if item else f"{name}: {reason}"
     return f"{name}: {item} is {error['input']!r}: {reason}"

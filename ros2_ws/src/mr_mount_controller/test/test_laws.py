@@ -1,0 +1,176 @@
+"""Control laws: the contract that every installed law keeps, skyhook's rule, and what an answer may be."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mr_mount_controller.laws import find_law, known_laws
+from mr_mount_controller.laws.base import ControlLaw, LawError, Sample, answer
+from mr_mount_controller.laws.passive import Passive
+from mr_mount_controller.laws.skyhook import Skyhook
+from mr_mount_controller.parameters import ParameterError
+
+PERIOD = 1e-3
+ALL_LAWS = pytest.mark.parametrize("name", known_laws())
+
+
+def noise(seed, count=300):
+    """Samples with every channel random."""
+    random = np.random.default_rng(seed)
+    for k in range(count):
+        values = 10.0 * random.normal(size=(4, 3))
+        values[::2, 2] += 9.81
+        yield Sample((k + 1) * PERIOD, *(tuple(row) for row in values.tolist()))
+
+
+def currents(law, seed):
+    """All answers to a sequence of samples."""
+    return np.array([answer(law, sample) for sample in noise(seed)])
+
+
+@pytest.mark.property
+def test_shipped_laws_are_known():
+    """The laws of this package are found by their names."""
+    assert {"passive", "skyhook"} <= set(known_laws())
+    assert find_law("passive") is Passive
+    assert find_law("mr_mount_controller.laws.skyhook:Skyhook") is Skyhook
+
+
+@pytest.mark.property
+@ALL_LAWS
+@settings(max_examples=5)
+@given(seed=st.integers(0, 2**32 - 1))
+def test_same_samples_give_the_same_currents(name, seed):
+    """Two instances answer the same samples alike, to the last bit, finite."""
+    first, second = (currents(find_law(name)(PERIOD), seed) for _ in range(2))
+    assert first.tobytes() == second.tobytes()
+    assert np.isfinite(first).all()
+
+
+@pytest.mark.property
+@ALL_LAWS
+def test_reset_makes_a_law_as_new(name):
+    """After other samples and a reset, a law answers as one just made."""
+    used = find_law(name)(PERIOD)
+    currents(used, 1)
+    used.reset()
+    assert currents(used, 2).tobytes() == currents(find_law(name)(PERIOD), 2).tobytes()
+
+
+@pytest.mark.property
+@ALL_LAWS
+def test_parameters_are_acceptable_and_arrive(name):
+    """Every default passes its own check, and a value given at the start is the law's attribute."""
+    law = find_law(name)
+    assert len({parameter.name for parameter in law.parameters}) == len(law.parameters)
+    for parameter in law.parameters:
+        assert parameter.check(parameter.default) == parameter.default
+        assert getattr(law(PERIOD), parameter.name) == parameter.default
+        if parameter.high is not None:
+            assert getattr(law(PERIOD, **{parameter.name: parameter.high}), parameter.name) == parameter.high
+
+
+@pytest.mark.property
+@ALL_LAWS
+@pytest.mark.parametrize("end", ["low", "high"])
+def test_laws_run_at_the_ends_of_their_parameters(name, end):
+    """With every number at one end of its range the answers are finite all the same."""
+    law = find_law(name)
+    ranged = [parameter for parameter in law.parameters if parameter.low is not None]
+    values = {parameter.name: parameter.check(getattr(parameter, end)) for parameter in ranged}
+    assert np.isfinite(currents(law(PERIOD, **values), 3)).all()
+
+
+@pytest.mark.property
+def test_passive_holds_its_current():
+    """Passive answers its current whatever the sample."""
+    assert (currents(Passive(PERIOD, current=1.7), 4) == 1.7).all()
+
+
+@pytest.mark.analytic
+@pytest.mark.parametrize("frequency", [2.0, 8.7, 20.0])
+@pytest.mark.parametrize(("ratio", "phase"), [(0.5, 0.0), (2.0, 0.0), (1.0, 1.0), (0.7, -2.0)])
+def test_skyhook_switches_as_karnopp_says(sample, frequency, ratio, phase):
+    """Firm where v_p (v_p - v_c) > 0, for sinusoidal velocities of powertrain and chassis.
+
+    Both estimates lead the true velocities by the phase of s^2 / (s + w)^2, which is the same for both and so moves
+    the switching as a whole; two samples either side of a zero crossing are left out.
+    """
+    s, law = 2j * np.pi * frequency, Skyhook(PERIOD, soft_current=0.8, firm_current=3.0)
+    lead = np.angle(s**2 / (s + 2.0 * np.pi * law.corner) ** 2)
+    seen = {0.8: 0, 3.0: 0}
+    for k in range(1, 12_001):
+        end = k * PERIOD
+        # accelerations as means over the period are differences of the velocities
+        v_p, v_c = (np.imag(a * np.exp(s * np.array([end - PERIOD, end]))) for a in (1.0, ratio * np.exp(1j * phase)))
+        got = answer(law, sample(end, np.diff(v_c)[0] / PERIOD, np.diff(v_p)[0] / PERIOD))[0]
+        # the start dies out as exp(-w t): 4e-11 after 8 s
+        if k > 8_000:
+            near = np.exp(s * (end + PERIOD * np.array([-2, -1, 0, 1, 2])) + 1j * lead)
+            v_p, v_r = near.imag, (near * (1.0 - ratio * np.exp(1j * phase))).imag
+            firm = v_p * v_r > 0.0
+            if firm.all() or not firm.any():
+                assert got == (3.0 if firm[0] else 0.8)
+                seen[got] += 1
+    assert sum(seen.values()) > 2_000
+    # powertrain and chassis in step: the sign never changes
+    assert min(seen.values()) > 100 or phase == 0.0
+
+
+@pytest.mark.property
+def test_skyhook_at_rest_is_soft(sample):
+    """With nothing but gravity the damper stays soft."""
+    law = Skyhook(PERIOD)
+    assert all((answer(law, sample(k * PERIOD)) == law.soft_current).all() for k in range(1, 100))
+
+
+class Says(ControlLaw):
+    """Answers whatever it is told to."""
+
+    says = None
+
+    def update(self, sample):
+        """Return it."""
+        return self.says
+
+
+def _saying(what):
+    law = Says(PERIOD)
+    law.says = what
+    return law
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(
+    ("given_answer", "expected"),
+    [(1, [1, 1]), (1.5, [1.5, 1.5]), ((1, 2.5), [1, 2.5]), (np.float32(2), [2, 2]), (np.array([3, -4]), [3, -4])],
+)
+def test_answers_are_one_current_or_two(sample, given_answer, expected):
+    """One number serves both mounts, two are left and right, out of any usual type."""
+    assert answer(_saying(given_answer), sample(0.0)).tolist() == expected
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(
+    "bad",
+    [None, float("nan"), float("inf"), (1.0, float("nan")), "text", "2.0", ("1", "2"), b"3", True, 1j, {1.0},
+     (1.0, 2.0, 3.0), (), ([1.0], [2.0]), np.ones((1, 2)), 10**400, {"current": 1.0}],
+)  # fmt: skip
+def test_other_answers_are_refused(sample, bad):
+    """Anything else is refused with the law's name, the answer, the time and what is wanted."""
+    with pytest.raises(LawError) as refused:
+        answer(_saying(bad), sample(1.25))
+    for words in ("law Says", repr(bad), "t = 1.250 s", "one finite current [A] or a pair"):
+        assert words in str(refused.value)
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(
+    "name",
+    ["", "nope", "json:", ":X", ".law:X", "no_such_module:Law", "json:NoSuchLaw", "json:dumps", "fractions:Fraction"],
+)
+def test_unknown_laws_are_refused_by_name(name):
+    """A law that is not there, or is none, is refused in a sentence that names it."""
+    with pytest.raises(ParameterError) as refused:
+        find_law(name)
+    assert f"'law' is {name!r}" in str(refused.value)

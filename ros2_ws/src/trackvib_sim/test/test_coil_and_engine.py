@@ -1,0 +1,126 @@
+"""Driver and coil as a first-order lag; the engine's orders and the paper's imposed displacement."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+from trackvib_sim.rui.loads import new_loads
+from trackvib_sim.vehicle.coil import coil, drive_coils, usable_current
+from trackvib_sim.vehicle.engine import add_engine, engine, imposed_displacement
+
+
+@pytest.mark.analytic
+@given(
+    dt=st.floats(1e-6, 0.1),
+    steps=st.integers(1, 50),
+    start=st.floats(0.0, 5.0),
+    demands=st.tuples(st.floats(-10.0, 10.0), st.floats(-10.0, 10.0)),
+)
+def test_coil_is_an_exact_first_order_lag(vehicle, dt, steps, start, demands):
+    """After any number of steps of any length both coils are where the closed form has them."""
+    currents = np.full(2, start)
+    for _ in range(steps):
+        drive_coils(coil(vehicle, dt), np.array(demands), currents)
+    target = np.clip(demands, *vehicle.coil.current_limits)
+    expected = target + (start - target) * np.exp(-steps * dt / vehicle.coil.time_constant)
+    assert_allclose(currents, expected, rtol=1e-13, atol=1e-13)
+
+
+@pytest.mark.property
+@given(demand=st.floats(-1e6, 1e6), start=st.floats(0.0, 5.0))
+def test_coil_never_leaves_the_drivers_limits(vehicle, demand, start):
+    """A current within the limits stays there whatever is demanded, and moves towards the demand."""
+    currents = np.full(2, start)
+    drive_coils(coil(vehicle, 1e-3), np.full(2, demand), currents)
+    lowest, highest = vehicle.coil.current_limits
+    assert lowest <= currents.min() and currents.max() <= highest
+    # by rounding alone it may end a last bit beyond
+    assert min(start, demand) - 1e-12 <= currents[0] <= max(start, demand) + 1e-12
+
+
+@pytest.mark.property
+def test_usable_current_is_what_nobody_cuts(changed, vehicle):
+    """The usable range is where the driver's limits and the fits' range overlap."""
+    assert usable_current(vehicle).tolist() == [0.7, 4.0]
+    assert usable_current(changed("coil", current_limits=[1.0, 2.0])).tolist() == [1.0, 2.0]
+
+
+def _spectrum(vehicle, rows, moved, tree, state, speed):
+    """Fourier amplitudes of the force and of the moment about the point of attack, powertrain axes, by order."""
+    record, motion = engine(vehicle, rows, speed, False), moved(tree, state)
+    body = rows["powertrain"]
+    turn = motion.rotation[body].reshape(3, 3)
+    samples = 64  # a revolution, enough for order 31
+    waves = np.zeros((samples, 2, 3))
+    for k in range(samples):
+        loads = new_loads(len(tree.mass))
+        add_engine(record, 2.0 * np.pi * k / samples, motion, loads)
+        arm = turn @ vehicle.engine.place
+        moment = loads.moment[body] - np.cross(arm, loads.force[body])
+        waves[k] = turn.T @ loads.force[body], turn.T @ moment
+        loads.force[body] = loads.moment[body] = 0.0
+        assert not loads.force.any() and not loads.moment.any() and not loads.torque.any()
+    return 2.0 * np.fft.rfft(waves, axis=0) / samples
+
+
+@pytest.mark.analytic
+def test_engine_has_lines_only_at_its_orders(vehicle, rows, system, random_state, moved):
+    """At rated speed the lines are those of the file, at orders 2, 3 and 6, fixed in the powertrain's axes."""
+    state = random_state(system.tree, 4)
+    lines = _spectrum(vehicle, rows, moved, system.tree, state, vehicle.engine.rated_speed)
+    for order in range(len(lines)):
+        expected = np.zeros((2, 3))
+        if order in (2, 3, 6):
+            i = vehicle.engine.orders.index(float(order))
+            expected = np.array([vehicle.engine.force[i], vehicle.engine.moment[i]])
+        # amplitudes up to 3000 N
+        assert_allclose(np.abs(lines[order]), expected, atol=1e-9)
+
+
+@pytest.mark.literature
+def test_engine_orders_are_those_of_the_paper(vehicle):
+    """Second and third order are there, the second is the strongest vertical force, rated speed is 1650 r/min."""
+    e = vehicle.engine
+    assert {2.0, 3.0} <= set(e.orders) and e.rated_speed == 1650.0
+    assert np.argmax(np.array(e.force)[:, 2]) == e.orders.index(2.0)
+    assert e.imposed_amplitude == 2e-4
+
+
+@pytest.mark.analytic
+@pytest.mark.parametrize("speed", [450.0, 825.0, 2100.0])
+def test_engine_forces_grow_with_speed_squared(vehicle, rows, system, random_state, moved, speed):
+    """Every line at another speed is that at rated speed times the ratio of the speeds squared."""
+    state = random_state(system.tree, 4)
+    rated = _spectrum(vehicle, rows, moved, system.tree, state, vehicle.engine.rated_speed)
+    lines = _spectrum(vehicle, rows, moved, system.tree, state, speed)
+    assert_allclose(lines, rated * (speed / vehicle.engine.rated_speed) ** 2, atol=1e-9)
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("imposed", [False, True])
+def test_standing_engine_is_silent(vehicle, rows, system, random_state, moved, imposed):
+    """At 0 r/min there is no force, no moment and no displacement in either kind of excitation."""
+    record, loads = engine(vehicle, rows, 0.0, imposed), new_loads(len(system.tree.mass))
+    add_engine(record, 1.0, moved(system.tree, random_state(system.tree, 1)), loads)
+    assert not loads.force.any() and not loads.moment.any()
+    assert imposed_displacement(record, 1.0) == (0.0, 0.0)
+
+
+@pytest.mark.literature
+@pytest.mark.parametrize("speed", [900.0, 1650.0])
+def test_imposed_displacement_is_the_papers(vehicle, rows, speed):
+    """The alternative is 2e-4 sin(2 angle) m with its own rate, and replaces the forces."""
+    record = engine(vehicle, rows, speed, True)
+    assert not record.force.any() and not record.moment.any()
+    crank = speed * 2.0 * np.pi / 60.0
+    for time in np.linspace(0.0, 0.1, 7):
+        displacement, rate = imposed_displacement(record, crank * time)
+        assert displacement == pytest.approx(2e-4 * np.sin(2.0 * crank * time), abs=1e-17)
+        assert rate == pytest.approx(2e-4 * 2.0 * crank * np.cos(2.0 * crank * time), rel=1e-9, abs=1e-15)
+
+
+@pytest.mark.property
+def test_forces_leave_no_imposed_displacement(vehicle, rows):
+    """Where forces excite, nothing is imposed."""
+    assert imposed_displacement(engine(vehicle, rows, 1650.0, False), 0.3) == (0.0, 0.0)

@@ -1,0 +1,99 @@
+"""`trackvib run` when it is cut short, and its bad input."""
+
+import os
+import signal
+import time
+
+import pytest
+import yaml
+from trackvib_sim.bags.reading import read_drive
+
+pytestmark = pytest.mark.system
+
+
+def wait_for_text(path, text):
+    """Wait until a log holds a text."""
+    end = time.monotonic() + 60.0
+    while not (path.exists() and text in path.read_text()):
+        assert time.monotonic() < end, f"{text!r} never came up in {path}"
+        time.sleep(0.05)
+
+
+def nodes_of(folder):
+    """Return the processes that write to a run's folder."""
+    found = []
+    for entry in os.listdir("/proc"):
+        if entry.isdigit():
+            try:
+                with open(f"/proc/{entry}/cmdline", "rb") as file:
+                    command = file.read().decode()
+                logs = os.readlink(f"/proc/{entry}/fd/1").startswith(str(folder))
+            except OSError:
+                continue
+            if logs and "--ros-args" in command:
+                found.append(entry)
+    return found
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_interrupted_run_leaves_a_complete_bag(start_cli, tmp_path, number):
+    """Ctrl-C, a request to end and a closed terminal all end the nodes in order and close the bag."""
+    run = start_cli("run", "--duration", 600, "--out", tmp_path / "run")
+    wait_for_text(tmp_path / "run" / "log" / "simulator.log", "running")
+    time.sleep(4.0)
+    run.signal(number)
+    assert run.wait() == 130, run.output
+    assert yaml.safe_load((tmp_path / "run" / "bag" / "metadata.yaml").read_text())
+    drive = read_drive(tmp_path / "run" / "bag")
+    assert drive.diagnostics["state"] == "stopped"
+    assert len(drive.chassis.stamp) == len(drive.answered) or len(drive.chassis.stamp) == len(drive.answered) + 1
+    assert nodes_of(tmp_path) == []
+
+
+def test_killed_run_leaves_no_process(start_cli, tmp_path):
+    """When the command itself is killed without warning, its nodes end, and the recorder closes its bag."""
+    run = start_cli("run", "--duration", 600, "--out", tmp_path / "run")
+    wait_for_text(tmp_path / "run" / "log" / "simulator.log", "running")
+    os.kill(run.pid, signal.SIGKILL)
+    run.wait()
+    end = time.monotonic() + 30.0
+    while nodes_of(tmp_path):
+        assert time.monotonic() < end, "nodes outlive the command"
+        time.sleep(0.1)
+    assert (tmp_path / "run" / "bag" / "metadata.yaml").exists()
+
+
+def test_a_node_that_dies_ends_the_run_with_its_name(start_cli, tmp_path):
+    """If the recorder is killed, the run ends, says which node it was, and exits with an error."""
+    run = start_cli("run", "--duration", 600, "--out", tmp_path / "run")
+    wait_for_text(tmp_path / "run" / "log" / "simulator.log", "running")
+    for pid in nodes_of(tmp_path):
+        with open(f"/proc/{pid}/cmdline") as file:
+            if "/recorder\0" in file.read():
+                os.kill(int(pid), signal.SIGKILL)
+    assert run.wait() == 1
+    assert "'recorder'" in run.output
+    assert nodes_of(tmp_path) == []
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--road-class", "Z"], ["--road-class", "'Z'", "'a', 'b', 'c', 'd', 'e', 'f', 'g', 'h'"]),
+        (["--speed", "200"], ["--speed", "200", "0.0<=x<=25.0"]),
+        (["--speed", "nan"], ["--speed", "nan"]),
+        (["--duration", "0"], ["--duration", "0.1<=x<=3600.0"]),
+        (["--law", "magic"], ["--law", "magic", "passive, skyhook"]),
+        (["--seed", "-1"], ["--seed", "-1", "0<=x<="]),
+        (["--out", "/proc/none/run"], ["/proc/none/run", "cannot be made"]),
+        (["--sped", "3"], ["--sped"]),
+    ],
+)
+def test_bad_options_are_refused(start_cli, arguments, words):
+    """The error names the option, its value and what is accepted; nothing is started."""
+    run = start_cli("run", *arguments)
+    assert run.wait() != 0
+    output = run.output.replace("\n", " ")
+    for word in words:
+        assert word.lower() in output.lower(), run.output
+    assert "Traceback" not in run.output
