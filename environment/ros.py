@@ -4,7 +4,7 @@ import os
 import platform
 import subprocess
 from pathlib import Path
-from typing import NamedTuple, Optional
+from typing import NamedTuple
 
 from environment import SetupError
 
@@ -32,7 +32,7 @@ _SHELL_NOISE = {"_", "SHLVL", "PWD", "OLDPWD", "ROS_AUTOMATIC_DISCOVERY_RANGE"}
 class Ros(NamedTuple):
     """A ROS 2 Jazzy of the machine; `prefix` is None where the wheels have to serve instead."""
 
-    prefix: Optional[Path]
+    prefix: Path | None
     sourced: bool = False
 
 

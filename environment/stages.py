@@ -7,8 +7,9 @@ import hashlib
 import json
 import os
 import re
+from collections.abc import Callable
 from pathlib import Path
-from typing import Callable, NamedTuple, Optional
+from typing import NamedTuple
 
 from environment import activate
 from environment import ros as ros2
@@ -176,7 +177,7 @@ def _python_sources(folder: Path) -> list:
     return [[str(path.relative_to(folder)), _hash(path)] for path in sorted(folder.rglob("*.py"))]
 
 
-def _hash(path: Path) -> Optional[str]:
+def _hash(path: Path) -> str | None:
     """Hash of a file's contents, None if there is none (a dangling link, a file that is gone again)."""
     try:
         return hashlib.sha256(path.read_bytes()).hexdigest()

@@ -12,7 +12,6 @@ import subprocess
 import sys
 import time
 from pathlib import Path
-from typing import Optional
 
 from environment import SetupError
 
@@ -51,7 +50,7 @@ def fingerprint(value) -> str:
     return hashlib.sha256(json.dumps(value, sort_keys=True).encode()).hexdigest()
 
 
-def read_stamp(folder: Path) -> Optional[dict]:
+def read_stamp(folder: Path) -> dict | None:
     """What `write_stamp` left in `folder`, or None if the stage was never finished."""
     try:
         return json.loads((folder / _STAMP).read_text())

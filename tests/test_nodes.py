@@ -2,6 +2,7 @@
 
 import itertools
 import signal
+import time
 
 import pytest
 
@@ -73,6 +74,7 @@ def test_two_simulators_do_not_mix(start_node):
     start_node("controller")
     first = start_node("simulator")
     first.wait_for("running")
+    time.sleep(3.0)  # a simulator that is as young would end as well
     second = start_node("simulator")
     assert second.wait() != 0
     assert "another node publishes" in second.output and "ROS_DOMAIN_ID" in second.output

@@ -135,7 +135,7 @@ def _print_summary(console, summary, folder):
     title = f"RMS acceleration, {low:g}-{high:g} Hz, after {summary['settled_after_s']:.1f} s"
     table = Table(title=title, title_justify="left")
     table.add_column("m/s²")
-    for axis, name in zip(AXES, ("longitudinal x", "lateral y", "vertical z"), strict=True):
+    for name in ("longitudinal x", "lateral y", "vertical z"):
         table.add_column(name, justify="right")
     for sensor in SENSORS:
         table.add_row(sensor, *(f"{summary['rms_mps2'][sensor][axis]:.3f}" for axis in AXES))

@@ -1,4 +1,4 @@
-"""The recorder node: writes topics to an MCAP bag as they travel, with the parameters of the nodes that publish them."""
+"""The recorder node: writes topics to an MCAP bag as they travel, with the parameters of the nodes behind them."""
 
 import os
 import sys
@@ -35,6 +35,8 @@ PARAMETERS = (
 )
 _DEPTH = 1000  # messages that may wait while a chunk is compressed
 _SERVICE_TIMEOUT = 2.0  # s, for a node to tell its parameters
+_UNKNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's word for it
+_NAMES_TIMEOUT = 3.0  # s
 _REST = 0.02  # s between looks; waking for every message would take the processor from the loop
 _NICE = 10
 _QUIET = 0.2  # s without a message after which nothing more is expected at the end
@@ -59,6 +61,8 @@ class RecorderNode(LoopNode):
         self.get_logger().info(f"waiting for {', '.join(sorted(self._wanted))}")
         if not self.spin_until(lambda: all(map(self.get_publishers_info_by_topic, self._wanted))):
             return
+        # names of nodes come a moment after their publishers; what is not a node never has one
+        self.spin_until(lambda: not any(_UNKNOWN in name for name in self._publishing_nodes()), _NAMES_TIMEOUT)
         self._bag.add_provenance("versions", versions())
         for name in self._publishing_nodes():
             self._bag.add_provenance(f"parameters of {name}", self._parameters_of(name))

@@ -3,40 +3,26 @@
 import sys
 import time
 
-from mr_mount_controller.node_support import (
-    CLOCK_QOS,
-    LATCHED_QOS,
-    LOOP_QOS,
-    LOOP_WRITER_QOS,
-    ROAD_QOS,
-    LoopNode,
-    NodeError,
-    run_node,
-)
+from mr_mount_controller.node_support import LOOP_QOS, ROAD_QOS, LoopNode, NodeError, run_node
 from mr_mount_controller.parameters import ParameterError
-from diagnostic_msgs.msg import DiagnosticArray
-from nav_msgs.msg import Odometry
-from rclpy.duration import Duration
-from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import Imu
-from std_msgs.msg import String
-from trackvib_msgs.msg import CoilCurrent, MountState, RoadProfile
+from trackvib_msgs.msg import CoilCurrent, RoadProfile
 
 from ..installed import default_vehicle_file
 from ..simulation.exchange import Exchange
 from ..simulation.settings import NANO, Rates, RunSettings
-from ..simulation.simulation import CHASSIS, POWERTRAIN, RunFailed, Simulation
+from ..simulation.simulation import RunFailed, Simulation
 from ..vehicle.coil import usable_current
 from ..vehicle.equilibrium import NoEquilibrium
 from ..vehicle.parameters import VehicleFileError, read_vehicle
 from ..vehicle.system import Operation
 from . import topics
-from .messages import ImuMessage, MountMessage, OdometryMessage, diagnostics
+from .output import SimulatorOutput
 from .simulator_parameters import PARAMETERS
 from .timing import PhaseClock
 
+_DIAGNOSTICS_RATE = 10  # Hz of simulated time
+_DISCOVERY = 2.0  # s after which nodes know of each other
 _SETTLING = 0.3  # s without a new partner; a controller's two subscriptions are not found in the same instant
-_FLUSH = Duration(seconds=2)  # for the last messages to arrive
 
 
 class SimulatorNode(LoopNode):
@@ -48,31 +34,19 @@ class SimulatorNode(LoopNode):
         self._lockstep = s["pace"] == "lockstep"
         vehicle, text = self._read_vehicle()
         self._simulation = self._prepare(vehicle)
-        self._period = self._simulation.settings.rates.period
         self._exchange = Exchange(s["passive_current"], usable_current(vehicle), self._lockstep)
         self._phases = PhaseClock("physics", "publishing", "waiting")
         self._silent = False  # no answer came in time; the loop runs on without waiting
         self._heard = False  # some answer came since
         self._state = "waiting"
 
-        self._imus = (ImuMessage(topics.CHASSIS_FRAME), ImuMessage(topics.POWERTRAIN_FRAME))
-        self._mounts, self._odometry, self._time = MountMessage(), OdometryMessage(), Clock()
-        self._imu_out = (
-            self.create_publisher(Imu, topics.CHASSIS_IMU, LOOP_WRITER_QOS),
-            self.create_publisher(Imu, topics.POWERTRAIN_IMU, LOOP_WRITER_QOS),
-        )
-        self._mount_out = self.create_publisher(MountState, topics.MOUNT_STATE, LOOP_WRITER_QOS)
-        self._odometry_out = self.create_publisher(Odometry, topics.ODOMETRY, LATCHED_QOS)
-        self._clock_out = self.create_publisher(Clock, topics.CLOCK, CLOCK_QOS)
-        self._diagnostics_out = self.create_publisher(DiagnosticArray, topics.DIAGNOSTICS, LOOP_WRITER_QOS)
-        self._vehicle_out = self.create_publisher(String, topics.VEHICLE_DESCRIPTION, LATCHED_QOS)
-        self._vehicle_out.publish(String(data=text))
+        self._output = SimulatorOutput(self, self._simulation, text)
         self._answers = self.create_subscription(CoilCurrent, topics.COIL_CURRENT, self._on_answer, LOOP_QOS)
         self.create_subscription(RoadProfile, topics.ROAD_PROFILE, self._on_road, ROAD_QOS)
 
     def run(self):
         """Wait for the partners, then run period after period until the duration is over or a stop is asked for."""
-        self._publish_odometry()
+        self._output.publish_odometry()
         self._wait_for_partners()
         periods = round(self.settings["duration"] * self._simulation.settings.rates.control)
         start = time.perf_counter()
@@ -88,11 +62,11 @@ class SimulatorNode(LoopNode):
         if self._state == "running":
             self._state = "stopped"
         self._publish_diagnostics()
-        for publisher in (*self._imu_out, self._mount_out, self._odometry_out, self._diagnostics_out):
-            publisher.wait_for_all_acked(_FLUSH)
+        self._output.flush()
 
     def _one_period(self, start):
-        self._wait_for_road()
+        if not self._wait_for_road():
+            return
         self._phases.start("physics")
         try:
             self._simulation.advance(self._exchange.currents)
@@ -100,7 +74,12 @@ class SimulatorNode(LoopNode):
             self._state = "failed"
             raise NodeError(f"run failed: {failure}") from None
         self._phases.start("publishing")
-        self._publish_sample()
+        self._exchange.publish(self._simulation.time)
+        self._output.publish_sample()
+        if self._simulation.periods % (self._simulation.settings.rates.control // _DIAGNOSTICS_RATE) == 0:
+            self._publish_diagnostics()
+            if self._phases.total() < _DISCOVERY:
+                self._refuse_second_simulator()
         self._phases.start("waiting")
         if self._lockstep:
             self._wait_for_answer()
@@ -119,12 +98,11 @@ class SimulatorNode(LoopNode):
             f"{topics.COIL_CURRENT}",
         ]
         self.get_logger().info("waiting for " + ", ".join([*missing, *["a recorder"] * recorder]))
-        recorded = (*self._imu_out, self._mount_out, self._diagnostics_out, self._clock_out)
         seen, since = None, 0.0
 
         def complete():
             nonlocal seen, since
-            listeners = [publisher.get_subscription_count() for publisher in recorded]
+            listeners = self._output.listeners()
             now = (self._simulation.road_is_enough(), self._answers.get_publisher_count(), *listeners)
             if now != seen:
                 seen, since = now, time.monotonic()
@@ -132,21 +110,27 @@ class SimulatorNode(LoopNode):
             return there and time.monotonic() - since > _SETTLING
 
         self.spin_until(complete)
-        if self.count_publishers(topics.CHASSIS_IMU) > 1:
-            raise NodeError(f"another node publishes {topics.CHASSIS_IMU} in this domain; set ROS_DOMAIN_ID or a namespace")
+        self._refuse_second_simulator()
         if not self.stopping():
             self.get_logger().info("all partners are there, running")
 
+    def _refuse_second_simulator(self):
+        if self.count_publishers(topics.CHASSIS_IMU) > 1:
+            raise NodeError(
+                f"another node publishes {topics.CHASSIS_IMU} in this domain; set ROS_DOMAIN_ID or a namespace"
+            )
+
     def _wait_for_road(self):
+        """Return whether there is road for the next period; in lock-step wait until there is or a stop is asked for."""
         if self._simulation.road_is_enough():
-            return
+            return True
         where = f"at {self._simulation.distance:.1f} m (t = {self._simulation.time / NANO:.3f} s)"
         if not self._lockstep:
             self._state = "failed"
             raise NodeError(f"no road ahead {where}")
         self.get_logger().warning(f"no road ahead {where}, waiting for {topics.ROAD_PROFILE}")
-        self._publish_odometry()
-        self.spin_until(self._simulation.road_is_enough)
+        self._output.publish_odometry()
+        return self.spin_until(self._simulation.road_is_enough)
 
     def _wait_for_answer(self):
         answered = lambda: self._exchange.answered  # noqa: E731
@@ -199,26 +183,6 @@ class SimulatorNode(LoopNode):
         except ValueError as error:
             self.get_logger().error(f"road patch refused: {error}")
 
-    def _publish_sample(self):
-        simulation = self._simulation
-        stamp, rates = simulation.time, simulation.settings.rates
-        force, rate = simulation.sample.specific_force.tolist(), simulation.sample.rate.tolist()
-        self._exchange.publish(stamp)
-        for sensor in (CHASSIS, POWERTRAIN):
-            self._imu_out[sensor].publish(self._imus[sensor].fill(stamp, force[sensor], rate[sensor]))
-        self._mount_out.publish(self._mounts.fill(stamp, simulation.sample.mounts))
-        if simulation.periods % (rates.control // rates.odometry) == 0:
-            self._publish_odometry()
-        if simulation.periods % (rates.control // 10) == 0:
-            self._publish_diagnostics()
-
-    def _publish_odometry(self):
-        simulation = self._simulation
-        odometry = self._odometry.fill(simulation.time, simulation.state.tree, simulation.sample)
-        self._odometry_out.publish(odometry)
-        self._time.clock.sec, self._time.clock.nanosec = divmod(simulation.time, NANO)
-        self._clock_out.publish(self._time)
-
     def _publish_diagnostics(self):
         counts = self._exchange.counts
         level = "ok"
@@ -234,7 +198,7 @@ class SimulatorNode(LoopNode):
             **counts,
             **{f"{phase}_us_per_period": cost for phase, cost in self._phases.costs().items()},
         }
-        self._diagnostics_out.publish(diagnostics(self._simulation.time, level, self._state, values))
+        self._output.publish_diagnostics(level, self._state, values)
 
     def _summary(self):
         simulated = self._simulation.time / NANO
@@ -254,13 +218,14 @@ class SimulatorNode(LoopNode):
     def _prepare(self, vehicle):
         s = self.settings
         low, high = vehicle.engine.speed_range
-        if s["engine_speed"] != 0.0 and not low <= s["engine_speed"] <= high:
+        engine_speed = s["engine_speed"]
+        if engine_speed != 0.0 and not low <= engine_speed <= high:
             raise ParameterError(
-                f"simulator: parameter 'engine_speed' is {s['engine_speed']} r/min, accepted is 0 or {low:g} to {high:g}"
+                f"simulator: parameter 'engine_speed' is {engine_speed}, accepted is 0 or {low:g} to {high:g} r/min"
             )
         try:
             rates = Rates(s["physics_rate"], s["control_rate"], s["odometry_rate"])
-            operation = Operation(s["speed"], s["engine_speed"], s["engine_excitation"] == "displacement")
+            operation = Operation(s["speed"], engine_speed, s["engine_excitation"] == "displacement")
             return Simulation(vehicle, RunSettings(operation, rates, s["passive_current"]))
         except (NoEquilibrium, ValueError) as error:
             raise ParameterError(f"simulator: {error}") from None

@@ -20,7 +20,7 @@ PARAMETERS = (
         choices=("lockstep", "realtime"),
     ),
     Parameter("real_time_factor", 1.0, "Simulated per wall time where pace is realtime.", "", 0.01, 100.0),
-    Parameter("answer_timeout", 1.0, "Wall time to wait for an answer before the controller is silent.", "s", 0.001, 60.0),
+    Parameter("answer_timeout", 1.0, "Wall time after which a controller is silent.", "s", 0.001, 60.0),
     Parameter(
         "on_silence",
         "hold",

@@ -30,5 +30,8 @@ class PhaseClock:
 
     def factor(self, simulated):
         """Return simulated time [s] per wall time spent; 0 before anything was."""
-        wall = sum(self._spent.values())
-        return simulated / wall if wall > 0.0 else 0.0
+        return simulated / self.total() if self._periods else 0.0
+
+    def total(self):
+        """Return all wall time spent [s]."""
+        return sum(self._spent.values())

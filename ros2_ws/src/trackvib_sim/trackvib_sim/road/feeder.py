@@ -4,6 +4,7 @@ from .iso8608 import SPACING
 
 PATCH = 100  # samples
 BEHIND = 20.0  # m of road behind the vehicle's origin, for the rear wheels
+KEPT = 2  # patches by which a vehicle may go back without being fed anew
 
 
 class RoadFeeder:
@@ -23,3 +24,5 @@ class RoadFeeder:
             first = self._next * PATCH
             yield first * SPACING, SPACING, self._road.heights(first, PATCH)
             self._next += 1
+        # whoever is fed keeps a stretch behind the vehicle, but not for ever
+        self._first = max(self._first, behind - KEPT)

@@ -1,7 +1,8 @@
 """Random road profiles of ISO 8608 by superposition of harmonics, reproducible from (seed, distance).
 
-[ISO8608] gives the displacement power spectral density G_d(n) = G_d(n0) (n / n0)^-2 with n0 = 0.1 1/m and the geometric
-means G_d(n0) = 16e-6 * 4^k m^3 for the classes A (k = 0) to H (k = 7). [Tao2025] sums harmonics of it with random phase.
+[ISO8608] gives the displacement power spectral density G_d(n) = G_d(n0) (n / n0)^-2 with n0 = 0.1 1/m and the
+geometric means G_d(n0) = 16e-6 * 4^k m^3 for the classes A (k = 0) to H (k = 7). [Tao2025] sums harmonics of it with
+random phase.
 """
 
 from dataclasses import dataclass

@@ -104,7 +104,7 @@ def mount_deflection(mounts, motion, index, imposed, imposed_rate):
 
 
 @kernel
-def mount_force(mounts, current, l, l_d):  # noqa: E741 - the paper's symbols
+def mount_force(mounts, current, l, l_d):
     """Return the force on the powertrain in hull axes [N] and the power that the damping turns into heat [W]."""
     k, c = mount_characteristics(mounts, current)
     r_k, r_c = mounts.stiffness_ratio, mounts.damping_ratio
@@ -121,7 +121,7 @@ def mount_force(mounts, current, l, l_d):  # noqa: E741 - the paper's symbols
 def add_mounts(mounts, motion, loads, currents, imposed, imposed_rate):
     """Add the mounts' forces to powertrain and hull; `imposed` as in `mount_deflection`."""
     for index in range(2):
-        upper, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)  # noqa: E741
+        upper, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)
         force, _ = mount_force(mounts, currents[index], l, l_d)
         force = rotate(load9(motion.rotation, mounts.hull), force)
         apply_force(loads, motion, mounts.powertrain, upper, force)
@@ -132,7 +132,7 @@ def add_mounts(mounts, motion, loads, currents, imposed, imposed_rate):
 def observe_mounts(mounts, motion, currents, imposed, imposed_rate, sample):
     """Fill a `MountSample`."""
     for index in range(2):
-        _, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)  # noqa: E741
+        _, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)
         k, c = mount_characteristics(mounts, currents[index])
         force, power = mount_force(mounts, currents[index], l, l_d)
         sample.current[index], sample.stiffness[index], sample.damping[index] = currents[index], k, c

@@ -1,0 +1,114 @@
+"""The stretch of road that patches form."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_array_equal
+from trackvib_sim.road.store import KEPT_BEHIND, RoadStore
+
+SPACING = 0.05
+WHOLE = np.random.default_rng(5).normal(size=(2, 2000))  # samples -1000 ... 999
+
+
+def put(store, first, count):
+    """Add samples of the whole road to a store."""
+    store.add(first * SPACING, SPACING, *WHOLE[:, first + 1000 : first + 1000 + count])
+
+
+@pytest.mark.property
+@given(data=st.data())
+def test_any_patches_without_gap_form_the_road(data):
+    """Whatever the cut, the order and the overlaps of patches, the stretch is the road itself."""
+    cuts = sorted(data.draw(st.sets(st.integers(-900, 890), max_size=8)))
+    edges = [-1000, *cuts, 1000]
+    patches = [
+        (first, min(end + data.draw(st.integers(0, 30)), 1000) - first)
+        for first, end in zip(edges, edges[1:], strict=False)
+        if end - first >= 2
+    ]
+    store = RoadStore()
+    for first, count in data.draw(st.permutations(patches)):
+        put(store, first, count)
+    rear, front = sorted(data.draw(st.tuples(st.floats(-44.0, 44.0), st.floats(-44.0, 44.0))))
+    road = store.around(rear, front)
+    assert road.first * SPACING <= rear
+    assert front < (road.first + road.height.shape[1] - 1) * SPACING
+    first = road.first + 1000
+    assert_array_equal(road.height, WHOLE[:, first : first + road.height.shape[1]])
+
+
+@pytest.mark.property
+@given(rear=st.floats(-30.0, 30.0), length=st.floats(0.0, 15.0), hole=st.integers(-700, 700), width=st.integers(1, 9))
+def test_a_gap_is_never_bridged(rear, length, hole, width):
+    """Where a sample between rear and front is missing there is no road; elsewhere there is."""
+    store = RoadStore()
+    put(store, -1000, hole + 1000)
+    put(store, hole + width, 1000 - hole - width)
+    road = store.around(rear, rear + length)
+    # samples hole ... hole + width - 1 are missing
+    touches = rear + length >= (hole - 1) * SPACING and rear < (hole + width) * SPACING
+    assert (road is None) == touches
+
+
+@pytest.mark.property
+def test_missing_road_comes_with_the_next_patch():
+    """A store that could not serve a place serves it once the patch is there."""
+    store = RoadStore()
+    assert store.around(0.0, 1.0) is None
+    put(store, 0, 20)
+    assert store.around(0.0, 1.0) is None
+    put(store, 20, 20)
+    assert store.around(0.0, 1.0).height.shape == (2, 40)
+
+
+@pytest.mark.property
+def test_road_far_behind_is_forgotten():
+    """Along a long road a store holds no more than what is around the vehicle and kept behind it."""
+    store = RoadStore()
+    put(store, 0, 100)
+    for k in range(1, 200):
+        store.add(5.0 * k, SPACING, *np.zeros((2, 100)))
+        road = store.around(5.0 * k - 3.0, 5.0 * k + 3.0)
+        assert road.height.shape[1] * SPACING < KEPT_BEHIND + 20.0
+    assert store.around(1.0, 2.0) is None
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(
+    ("start", "spacing", "left", "right", "words"),
+    [
+        (0.0, 0.05, [0.0], [0.0], ("left has 1 samples and right 1", "at least 2")),
+        (0.0, 0.05, [0.0, 1.0, 2.0], [0.0, 1.0], ("left has 3 samples and right 2", "as many")),
+        (0.0, 0.0, [0.0, 1.0], [0.0, 1.0], ("spacing is 0.0 m", "> 0")),
+        (0.0, -0.1, [0.0, 1.0], [0.0, 1.0], ("spacing is -0.1 m", "> 0")),
+        (0.0, float("nan"), [0.0, 1.0], [0.0, 1.0], ("spacing is nan m", "finite")),
+        (0.0, float("inf"), [0.0, 1.0], [0.0, 1.0], ("spacing is inf m", "finite")),
+        (0.0, 0.1, [0.0, 1.0], [0.0, 1.0], ("spacing is 0.1 m", "0.05 m as in the patches before")),
+        (0.0, 0.05, [0.0, float("nan")], [0.0, 1.0], ("not finite",)),
+        (0.0, 0.05, [0.0, 1.0], [0.0, float("inf")], ("not finite",)),
+        (0.02, 0.05, [0.0, 1.0], [0.0, 1.0], ("start is 0.02 m", "multiple of the spacing 0.05 m")),
+        (float("nan"), 0.05, [0.0, 1.0], [0.0, 1.0], ("start is nan m", "multiple")),
+        (float("inf"), 0.05, [0.0, 1.0], [0.0, 1.0], ("start is inf m", "multiple")),
+    ],
+)
+def test_bad_patches_are_refused_and_leave_no_trace(start, spacing, left, right, words):
+    """A patch that cannot be used is refused with item, value and what is accepted, and the road stays as it was."""
+    store = RoadStore()
+    put(store, -20, 60)
+    before = store.around(-0.5, 0.5).height.copy()
+    with pytest.raises(ValueError) as refused:
+        store.add(start, spacing, left, right)
+    for word in words:
+        assert word in str(refused.value)
+    assert_array_equal(store.around(-0.5, 0.5).height, before)
+
+
+@pytest.mark.property
+def test_refused_first_patch_does_not_fix_the_spacing():
+    """A store whose first patch was refused takes any spacing afterwards."""
+    store = RoadStore()
+    with pytest.raises(ValueError, match="not finite"):
+        store.add(0.0, 0.1, [0.0, np.nan], [0.0, 0.0])
+    put(store, 0, 10)
+    assert store.around(0.0, 0.2) is not None

@@ -1,0 +1,72 @@
+"""What the simulator publishes: its publishers, and when each has something to say."""
+
+from diagnostic_msgs.msg import DiagnosticArray
+from mr_mount_controller.node_support import CLOCK_QOS, LATCHED_QOS, LOOP_WRITER_QOS
+from nav_msgs.msg import Odometry
+from rclpy.duration import Duration
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import Imu
+from std_msgs.msg import String
+from trackvib_msgs.msg import MountState
+
+from ..simulation.settings import NANO
+from ..simulation.simulation import CHASSIS, POWERTRAIN
+from . import topics
+from .messages import ImuMessage, MountMessage, OdometryMessage, diagnostics
+
+_FLUSH = Duration(seconds=2)  # for the last messages to arrive
+
+
+class SimulatorOutput:
+    """All publishers of the simulator node."""
+
+    def __init__(self, node, simulation, vehicle_text):
+        self._simulation = simulation
+        rates = simulation.settings.rates
+        self._periods_an_odometry = rates.control // rates.odometry
+        self._imus = (ImuMessage(topics.CHASSIS_FRAME), ImuMessage(topics.POWERTRAIN_FRAME))
+        self._mounts, self._odometry, self._time = MountMessage(), OdometryMessage(), Clock()
+        self._imu_out = (
+            node.create_publisher(Imu, topics.CHASSIS_IMU, LOOP_WRITER_QOS),
+            node.create_publisher(Imu, topics.POWERTRAIN_IMU, LOOP_WRITER_QOS),
+        )
+        self._mount_out = node.create_publisher(MountState, topics.MOUNT_STATE, LOOP_WRITER_QOS)
+        self._odometry_out = node.create_publisher(Odometry, topics.ODOMETRY, LATCHED_QOS)
+        self._clock_out = node.create_publisher(Clock, topics.CLOCK, CLOCK_QOS)
+        self._diagnostics_out = node.create_publisher(DiagnosticArray, topics.DIAGNOSTICS, LOOP_WRITER_QOS)
+        self._vehicle_out = node.create_publisher(String, topics.VEHICLE_DESCRIPTION, LATCHED_QOS)
+        self._vehicle_out.publish(String(data=vehicle_text))
+
+    def listeners(self):
+        """Return how many listen to: chassis Imu, powertrain Imu, mounts, diagnostics, clock."""
+        publishers = (*self._imu_out, self._mount_out, self._diagnostics_out, self._clock_out)
+        return [publisher.get_subscription_count() for publisher in publishers]
+
+    def publish_sample(self):
+        """Publish the sample of the last period; odometry and clock where it is their turn."""
+        simulation, stamp = self._simulation, self._simulation.time
+        force = simulation.sample.specific_force.tolist()
+        rate = simulation.sample.rate.tolist()
+        # the accelerations first: whoever answers them works while the rest is published
+        for sensor in (CHASSIS, POWERTRAIN):
+            self._imu_out[sensor].publish(self._imus[sensor].fill(stamp, force[sensor], rate[sensor]))
+        self._mount_out.publish(self._mounts.fill(stamp, simulation.sample.mounts))
+        if simulation.periods % self._periods_an_odometry == 0:
+            self.publish_odometry()
+
+    def publish_odometry(self):
+        """Publish where the vehicle is, and the clock."""
+        simulation = self._simulation
+        odometry = self._odometry.fill(simulation.time, simulation.state.tree, simulation.sample)
+        self._odometry_out.publish(odometry)
+        self._time.clock.sec, self._time.clock.nanosec = divmod(simulation.time, NANO)
+        self._clock_out.publish(self._time)
+
+    def publish_diagnostics(self, level, state, values):
+        """Publish the simulator's health: level "ok", "warning" or "error", its state and what it counts."""
+        self._diagnostics_out.publish(diagnostics(self._simulation.time, level, state, values))
+
+    def flush(self):
+        """Let what was published arrive."""
+        for publisher in (*self._imu_out, self._mount_out, self._odometry_out, self._diagnostics_out):
+            publisher.wait_for_all_acked(_FLUSH)
