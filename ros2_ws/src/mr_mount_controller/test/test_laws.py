@@ -94,8 +94,8 @@ def test_skyhook_switches_as_karnopp_says(sample, frequency, ratio, phase):
     """Firm where v_p (v_p - v_c) > 0, for sinusoidal velocities of powertrain and chassis.
 
     Both estimates lead the true velocities by the phase of s^2 / (s + w)^2, which is the same for both and so moves
-    the switching as a whole; one sample either side of a zero crossing is left out for the error of the discrete filters,
-    half a sample.
+    the switching as a whole; one sample either side of a zero crossing is left out for the error
+    of the discrete filters, half a sample.
     """
     s, law = 2j * np.pi * frequency, Skyhook(PERIOD, soft_current=0.8, firm_current=3.0)
     lead = np.angle(s**2 / (s + 2.0 * np.pi * law.corner) ** 2)

@@ -24,7 +24,7 @@ def test_rates_that_divide_are_accepted(data):
 @pytest.mark.parametrize(
     ("rates", "words"),
     [
-        ((10_000, 3_000, 100), ("physics_rate 10000 Hz", "control_rate 3000 Hz", "whole multiple")),
+        ((10_000, 3_000, 100), ("physics_rate 10000 Hz", "control_rate 3000 Hz", "must be a multiple")),
         ((1_000, 10_000, 100), ("physics_rate 1000 Hz", "control_rate 10000 Hz")),
         ((10_000, 1_000, 300), ("control_rate 1000 Hz", "odometry_rate 300 Hz")),
         ((10_000, 100, 1_000), ("control_rate 100 Hz", "odometry_rate 1000 Hz")),

@@ -63,6 +63,16 @@ def test_missing_road_comes_with_the_next_patch():
 
 
 @pytest.mark.property
+def test_road_a_little_behind_is_still_there():
+    """A vehicle that goes back to patches that are kept gets them at once."""
+    store = RoadStore()
+    for first in range(0, 400, 100):
+        put(store, first, 100)
+    assert store.around(11.0, 12.0).first == 200
+    assert store.around(6.0, 12.0).first == 100
+
+
+@pytest.mark.property
 def test_road_far_behind_is_forgotten():
     """Along a long road a store holds no more than what is around the vehicle and kept behind it."""
     store = RoadStore()

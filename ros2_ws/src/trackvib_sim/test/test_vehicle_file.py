@@ -28,7 +28,7 @@ def test_shipped_file_loads(content):
     assert text == content
     for section, items in yaml.safe_load(content).items():
         for name, quantity in items.items():
-            assert np.array_equal(getattr(getattr(vehicle, section), name), quantity["value"])
+            assert np.array_equal(getattr(getattr(vehicle, section), name), np.array(quantity["value"], dtype=float))
 
 
 @pytest.mark.literature
@@ -64,7 +64,8 @@ BAD = [
      ("mr_mounts.current_range", "[4.0, 0.7]", "first must be below")),
     ("current_limits: {value: [0.0, 5.0]", "current_limits: {value: [-1.0, 5.0]",
      ("coil.current_limits.0 is -1.0", "greater than or equal to 0")),
-    ("bump_travel: {value: 0.26", "bump_travel: {value: 0.5", ("swing_arms", "bump_travel is 0.5 m", "must be < 0.427")),
+    ("bump_travel: {value: 0.26", "bump_travel: {value: 0.5",
+     ("swing_arms", "bump_travel is 0.5 m", "must be < 0.427")),
     ("stations: {value: [1, 2, 6]", "stations: {value: [0, 2, 6]", ("shock_absorbers.stations.0", "equal to 1")),
     ("stations: {value: [1, 2, 6]", "stations: {value: [1.5, 2, 6]", ("stations is [1.5", "whole numbers")),
     ("x: {value: [-3.05]", "x: {value: [-3.05, 1.0]", ("sprockets", "2 places and z 1", "as many")),
@@ -85,11 +86,8 @@ def test_bad_items_are_named(content, good, bad, words):
 @pytest.mark.property
 def test_every_bad_item_is_named(content):
     """Two bad items give two lines."""
-    message = refusal(content.replace("20000.0, unit: kg", "-1.0, unit: kg").replace("unit: 1/revolution", "unit: Hz"))
-    message = message if "engine" in message else refusal(
-        content.replace("20000.0, unit: kg", "-1.0, unit: kg").replace('unit: "1/revolution"', "unit: Hz")
-    )
-    lines = message.splitlines()
+    text = content.replace("20000.0, unit: kg", "-1.0, unit: kg").replace('unit: "1/revolution"', "unit: Hz")
+    lines = refusal(text).splitlines()
     assert len(lines) == 2
     assert "hull.mass" in lines[0] and "engine.orders" in lines[1]
 
@@ -103,7 +101,7 @@ def test_counts_of_the_paper_are_kept(content):
 
 
 @pytest.mark.property
-@pytest.mark.parametrize("text", ["hull: [", "a: \x00", "a: !!python/object:x {}", "a: 2001-99-99", "a:\n- b\n c"])
+@pytest.mark.parametrize("text", ["hull: [", "a: \x00", "a: !!python/object:x {}", "a: 2001-99-99", "a: b: c"])
 def test_no_yaml_is_said_so(text):
     """A text that YAML cannot read is refused as that."""
     assert "my.yaml: not a YAML file: " in refusal(text)

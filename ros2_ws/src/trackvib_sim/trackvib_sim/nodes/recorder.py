@@ -6,7 +6,8 @@ import time
 from datetime import datetime
 from importlib import import_module
 
-from mr_mount_controller.node_support import LoopNode, NodeError, run_node
+from builtin_interfaces.msg import Time
+from mr_mount_controller.node_support import LOOP_QOS, LoopNode, NodeError, run_node
 from mr_mount_controller.parameters import Parameter
 from rclpy.parameter import parameter_value_to_python
 from rclpy.parameter_client import AsyncParameterClient
@@ -16,6 +17,7 @@ from ..bags.qos import qos_record
 from ..bags.stamps import leading_stamp
 from ..bags.versions import versions
 from ..bags.writing import BagError, BagWriter
+from ..simulation.settings import NANO
 from . import topics
 
 DEFAULT_TOPICS = [
@@ -33,7 +35,7 @@ PARAMETERS = (
     Parameter("bag", "", "Folder of the bag; empty for bag_<date and time> where the node was started."),
     Parameter("topics", DEFAULT_TOPICS, "Topics to record; recording starts when all of them are there."),
 )
-_DEPTH = 1000  # messages that may wait while a chunk is compressed
+_DEPTH = 1000  # messages that may wait
 _SERVICE_TIMEOUT = 2.0  # s, for a node to tell its parameters
 _UNKNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's word for it
 _NAMES_TIMEOUT = 3.0  # s
@@ -53,6 +55,7 @@ class RecorderNode(LoopNode):
         except BagError as error:
             raise NodeError(str(error)) from None
         self._wanted = {self.resolve_topic_name(topic) for topic in self.settings["topics"]}
+        self._recorded = self.create_publisher(Time, topics.RECORDED, LOOP_QOS)
         self._latest = 0  # stamp, ns
         self._received = 0
 
@@ -71,7 +74,9 @@ class RecorderNode(LoopNode):
             self._subscribe(topic)
         self.get_logger().info(f"recording {len(self._wanted)} topics to {self._bag.path}")
         while not self.stopping():
-            self._take_all()
+            if self._take_all():
+                seconds, nanoseconds = divmod(self._latest, NANO)
+                self._recorded.publish(Time(sec=seconds, nanosec=nanoseconds))
             time.sleep(_REST)
 
     def _take_all(self):

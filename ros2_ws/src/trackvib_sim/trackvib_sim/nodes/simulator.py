@@ -3,6 +3,7 @@
 import sys
 import time
 
+from builtin_interfaces.msg import Time
 from mr_mount_controller.node_support import LOOP_QOS, ROAD_QOS, LoopNode, NodeError, run_node
 from mr_mount_controller.parameters import ParameterError
 from trackvib_msgs.msg import CoilCurrent, RoadProfile
@@ -22,6 +23,9 @@ from .timing import PhaseClock
 
 _DIAGNOSTICS_RATE = 10  # Hz of simulated time
 _DISCOVERY = 2.0  # s after which nodes know of each other
+# A message waits in a queue of 1000 at worst, so a recorder this far behind has lost nothing yet.
+_RECORDER_LAG = NANO // 4  # ns of simulated time
+_RECORDER_TIMEOUT = 10.0  # s of wall time
 _SETTLING = 0.3  # s without a new partner; a controller's two subscriptions are not found in the same instant
 
 
@@ -38,11 +42,14 @@ class SimulatorNode(LoopNode):
         self._phases = PhaseClock("physics", "publishing", "waiting")
         self._silent = False  # no answer came in time; the loop runs on without waiting
         self._heard = False  # some answer came since
+        self._recorded = None  # time up to which the recorder has written, ns; unknown without one
         self._state = "waiting"
 
         self._output = SimulatorOutput(self, self._simulation, text)
         self._answers = self.create_subscription(CoilCurrent, topics.COIL_CURRENT, self._on_answer, LOOP_QOS)
         self.create_subscription(RoadProfile, topics.ROAD_PROFILE, self._on_road, ROAD_QOS)
+        if s["wait_for_recorder"]:
+            self.create_subscription(Time, topics.RECORDED, self._on_recorded, LOOP_QOS)
 
     def run(self):
         """Wait for the partners, then run period after period until the duration is over or a stop is asked for."""
@@ -83,6 +90,7 @@ class SimulatorNode(LoopNode):
         self._phases.start("waiting")
         if self._lockstep:
             self._wait_for_answer()
+            self._wait_for_recorder()
         else:
             self._wait_for_wall_clock(start)
         self._phases.stop()
@@ -146,6 +154,14 @@ class SimulatorNode(LoopNode):
             self._exchange.counts["silent_periods"] += 1
             self._on_silence(f"no answer to the sample at t = {self._simulation.time / NANO:.3f} s")
 
+    def _wait_for_recorder(self):
+        """Hold the loop while the recorder is too far behind, so that no message is lost however slow it is."""
+        near = lambda: self._simulation.time - self._recorded <= _RECORDER_LAG  # noqa: E731
+        if self._recorded is None or near() or self.spin_until(near, _RECORDER_TIMEOUT) or self.stopping():
+            return
+        self._recorded = None
+        self.get_logger().warning("the recorder does not keep up, no longer waiting for it; messages may be lost")
+
     def _wait_for_wall_clock(self, start):
         due = start + self._simulation.time / NANO / self.settings["real_time_factor"]
         while (left := due - time.perf_counter()) > 0.0 and not self.stopping():
@@ -176,6 +192,9 @@ class SimulatorNode(LoopNode):
         self._heard = True
         stamp = message.sample_stamp.sec * NANO + message.sample_stamp.nanosec
         self._exchange.offer(stamp, message.current)
+
+    def _on_recorded(self, time_written):
+        self._recorded = time_written.sec * NANO + time_written.nanosec
 
     def _on_road(self, patch):
         try:

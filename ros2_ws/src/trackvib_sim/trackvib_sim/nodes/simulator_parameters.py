@@ -31,5 +31,5 @@ PARAMETERS = (
     Parameter("physics_rate", 10_000, "Rate of the physics steps.", "Hz", 1000, 200_000),
     Parameter("control_rate", 1_000, "Rate of the Imu messages and of the control loop.", "Hz", 10, 10_000),
     Parameter("odometry_rate", 100, "Rate of odometry and /clock.", "Hz", 1, 10_000),
-    Parameter("wait_for_recorder", False, "Do not start before a recorder listens, too."),
+    Parameter("wait_for_recorder", False, "Start only with a recorder, and never run far ahead of it."),
 )

@@ -7,6 +7,7 @@ MOUNT_STATE = "mount_state"
 ODOMETRY = "odometry"
 ROAD_PROFILE = "road_profile"
 VEHICLE_DESCRIPTION = "vehicle_description"
+RECORDED = "recorder/recorded"  # time up to which the recorder has written
 CLOCK = "/clock"
 DIAGNOSTICS = "/diagnostics"
 

@@ -59,14 +59,10 @@ class RoadStore:
 
         Patches that end far behind `rear` are forgotten.
         """
-        if self._stretch is None and self._spacing is not None:
+        if not _reaches(self._stretch, rear, front) and self._spacing is not None:
             self._forget_before(rear - KEPT_BEHIND)
             self._stretch = self._join(int(np.floor(rear / self._spacing)))
-        road = self._stretch
-        if road is None or road.first * road.spacing > rear or _end(road) <= front:
-            self._stretch = None
-            return None
-        return road
+        return self._stretch if _reaches(self._stretch, rear, front) else None
 
     def _join(self, wanted):
         """Patches that follow each other without gap, from the one that holds sample `wanted` on."""
@@ -86,5 +82,7 @@ class RoadStore:
             del self._patches[first]
 
 
-def _end(road):
-    return (road.first + road.height.shape[1] - 1) * road.spacing
+def _reaches(road, rear, front):
+    if road is None:
+        return False
+    return road.first * road.spacing <= rear and front < (road.first + road.height.shape[1] - 1) * road.spacing

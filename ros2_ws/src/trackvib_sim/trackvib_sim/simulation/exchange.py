@@ -27,8 +27,8 @@ class Exchange:
         self.counts = Counter(dict.fromkeys(OUTCOMES, 0))
         self._usable = usable
         self._lockstep = lockstep
-        self._sample = 0  # stamp of the latest sample, ns
-        self._answered = -1  # stamp of the latest sample that was answered, ns; none yet
+        self._sample = -1  # stamp of the latest sample, ns; none yet
+        self._answered = -1  # stamp of the latest sample that was answered, ns
 
     @property
     def answered_stamp(self):

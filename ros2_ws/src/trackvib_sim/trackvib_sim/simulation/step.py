@@ -90,7 +90,9 @@ def advance(system, state, road, demanded, steps, work, sensors, sample):
         sweep = work.sweep
         integrate(state.tree, sweep.linear[0], sweep.angular[0], sweep.hinge_acceleration, dt)
         state.crank_angle[0] = (state.crank_angle[0] + dt * system.engine.speed) % (4.0 * np.pi)
-        if not np.isfinite(sweep.linear[0].sum() + sweep.angular[0].sum() + sweep.hinge_acceleration.sum()):
+        total = sweep.linear[0].sum() + sweep.angular[0].sum() + sweep.hinge_acceleration.sum()
+        # not np.isfinite: it compiles to total - total == 0, which reassociation turns into "true"
+        if not abs(total) < np.inf:
             return False
     observe(system, state, work.motion, sample)
     return True
