@@ -18,8 +18,8 @@ from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.closed_loop import run_closed_loop
 from trackvib_sim.simulation.settings import NANO, Rates, RunSettings
 from trackvib_sim.simulation.simulation import Simulation
-from trackvib_sim.vehicle.parameters import read_vehicle
 from trackvib_sim.vehicle.system import Operation
+from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
 SAMPLES = 10_000
 LOOP_TOPICS = ("/chassis/imu", "/powertrain/imu", "/coil_current", "/mount_state")

@@ -14,8 +14,8 @@ from trackvib_sim.rui.tree import rest_state
 from trackvib_sim.simulation.settings import Rates, RunSettings
 from trackvib_sim.simulation.simulation import Simulation
 from trackvib_sim.vehicle.body_tree import body_table
-from trackvib_sim.vehicle.parameters import read_vehicle
 from trackvib_sim.vehicle.system import Operation, build_system
+from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
 # the first example of a test may load a kernel, which takes its time; nothing is kept between runs
 settings.register_profile("unit", deadline=None, database=None)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import yaml
 from trackvib_sim.installed import default_vehicle_file
-from trackvib_sim.vehicle.parameters import VehicleFileError, parse_vehicle, read_vehicle
 from trackvib_sim.vehicle.quantities import SOURCES
+from trackvib_sim.vehicle.vehicle_file import VehicleFileError, parse_vehicle, read_vehicle
 
 
 @pytest.fixture(scope="module")

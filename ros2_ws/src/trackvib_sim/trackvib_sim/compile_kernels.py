@@ -7,8 +7,8 @@ from .road.iso8608 import Iso8608Road
 from .simulation.closed_loop import run_closed_loop
 from .simulation.settings import NANO, Rates, RunSettings
 from .simulation.simulation import Simulation
-from .vehicle.parameters import read_vehicle
 from .vehicle.system import Operation
+from .vehicle.vehicle_file import read_vehicle
 
 
 def main():

@@ -39,6 +39,6 @@ def find_law(name):
         law = getattr(import_module(module), attribute)
     except (ImportError, AttributeError, TypeError, ValueError) as error:
         raise ParameterError(f"parameter 'law' is {name!r}, which cannot be loaded: {error}") from None
-    if not (isinstance(law, type) and issubclass(law, ControlLaw)):
+    if not (isinstance(law, type) and issubclass(law, ControlLaw) and law is not ControlLaw):
         raise ParameterError(f"parameter 'law' is {name!r}, which is not a subclass of {ControlLaw.__name__}")
     return law

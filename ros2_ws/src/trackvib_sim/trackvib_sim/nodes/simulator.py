@@ -14,8 +14,8 @@ from ..simulation.settings import NANO, Rates, RunSettings
 from ..simulation.simulation import RunFailed, Simulation
 from ..vehicle.coil import usable_current
 from ..vehicle.equilibrium import NoEquilibrium
-from ..vehicle.parameters import VehicleFileError, read_vehicle
 from ..vehicle.system import Operation
+from ..vehicle.vehicle_file import VehicleFileError, read_vehicle
 from . import topics
 from .output import SimulatorOutput
 from .simulator_parameters import PARAMETERS

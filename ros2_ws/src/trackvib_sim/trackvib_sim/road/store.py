@@ -24,7 +24,7 @@ class RoadStore:
         self._stretch = None
 
     def add(self, start, spacing, left, right):
-        """Keep a patch; where two overlap, they are expected to agree.
+        """Keep a patch; where two overlap, they are expected to agree, and of two with one start the longer is kept.
 
         Parameters
         ----------
@@ -51,7 +51,8 @@ class RoadStore:
         if not abs(first * spacing - start) <= 1e-6 * spacing:
             raise ValueError(f"start is {start} m, must be a whole multiple of the spacing {spacing} m")
         self._spacing = spacing
-        self._patches[first] = heights
+        if first not in self._patches or heights.shape[1] > self._patches[first].shape[1]:
+            self._patches[first] = heights
         self._stretch = None
 
     def around(self, rear, front):

@@ -28,7 +28,7 @@ class Exchange:
         self._usable = usable
         self._lockstep = lockstep
         self._sample = -1  # stamp of the latest sample, ns; none yet
-        self._answered = -1  # stamp of the latest sample that was answered, ns
+        self._answered = -2  # stamp of the latest sample that was answered, ns; none yet
 
     @property
     def answered_stamp(self):

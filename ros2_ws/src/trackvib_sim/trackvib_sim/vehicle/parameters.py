@@ -1,10 +1,10 @@
-"""The vehicle file: what it must hold, and how it is read."""
+"""The vehicle's parameters: what a vehicle file must hold."""
 
-from pathlib import Path
+from math import radians, sin
 from typing import Annotated
 
-import yaml
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from .quantities import scalar, vector, vectors
 
@@ -15,10 +15,6 @@ Inertia = vector("kg m^2", 3, gt=0.0)
 Products = vector("kg m^2", 3)
 Gain = lambda unit: scalar(unit, ge=0.0)  # noqa: E731 - reads as the type it stands for
 Range = lambda unit: vector(unit, 2, ge=0.0)  # noqa: E731
-
-
-class VehicleFileError(ValueError):
-    """A vehicle file that cannot be used; the message names file, item, value and what is accepted."""
 
 
 class Section(BaseModel):
@@ -64,6 +60,15 @@ class MrMounts(Section):
     stiffness_ratio: vector("-", 3, ge=0.0)
     damping_ratio: vector("-", 3, ge=0.0)
 
+    @model_validator(mode="after")
+    def _stiff_over_the_range(self):
+        stiffness = np.polyval(self.stiffness_fit, np.linspace(*self.current_range, 201))
+        if stiffness.min() <= 0.0:
+            raise ValueError(
+                f"stiffness_fit falls to {stiffness.min():.3g} kN/mm within current_range, must stay > 0 there"
+            )
+        return self
+
 
 class Coil(Section):
     """Driver and coil of one mount."""
@@ -89,6 +94,8 @@ class Engine(Section):
         for name in ("force", "moment", "phase"):
             if len(getattr(self, name)) != len(self.orders):
                 raise ValueError(f"{name} has {len(getattr(self, name))} rows, must have one for each order")
+        if any(2.0 * order % 1.0 for order in self.orders):
+            raise ValueError(f"orders are {self.orders}, must be multiples of 0.5 (a cycle takes two revolutions)")
         return self
 
 
@@ -107,7 +114,7 @@ class SwingArms(Solid):
 
     @model_validator(mode="after")
     def _stop_within_reach(self):
-        highest = self.length * (1.0 + _sine(self.static_angle))
+        highest = self.length * (1.0 + sin(radians(self.static_angle)))
         if self.bump_travel >= highest:
             raise ValueError(f"bump_travel is {self.bump_travel} m, must be < {highest:.3f} m, which the arm can reach")
         return self
@@ -213,52 +220,3 @@ class Vehicle(Section):
             if not low < high:
                 raise ValueError(f"{name}: [{low}, {high}], the first must be below the second")
         return self
-
-
-def _sine(degrees):
-    from math import radians, sin
-
-    return sin(radians(degrees))
-
-
-def parse_vehicle(text, name):
-    """Return the `Vehicle` that a YAML text describes.
-
-    Raises
-    ------
-    VehicleFileError
-        The text is not YAML, or an item is missing, unknown, in the wrong unit or out of range.
-    """
-    try:
-        content = yaml.safe_load(text)
-    except (yaml.YAMLError, ValueError) as error:  # the latter from impossible dates
-        raise VehicleFileError(f"{name}: not a YAML file: {error}") from None
-    try:
-        return Vehicle.model_validate(content)
-    except ValidationError as error:
-        raise VehicleFileError("\n".join(_sentence(name, each) for each in error.errors())) from None
-
-
-def read_vehicle(path):
-    """Return the `Vehicle` in a YAML file and the file's text.
-
-    Raises
-    ------
-    VehicleFileError
-        The file cannot be read, or as in `parse_vehicle`.
-    """
-    try:
-        text = Path(path).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise VehicleFileError(f"vehicle file {str(path)!r} cannot be read: {error}") from None
-    return parse_vehicle(text, str(path)), text
-
-
-def _sentence(name, error):
-    item = ".".join(str(part) for part in error["loc"])
-    reason = error["msg"].removeprefix("Value error, ")
-    if error["type"] in ("model_type", "model_attributes_type"):
-        return f"{name}: {item or 'the whole file'} is {error['input']!r}: must be a section with items"
-    if error["type"] in ("missing", "value_error"):
-        return f"{name}: {item}: {reason}" if item else f"{name}: {reason}"
-    return f"{name}: {item} is {error['input']!r}: {reason}"

@@ -1,0 +1,55 @@
+"""Reads a vehicle file, and says in one sentence an item what is wrong with it."""
+
+from pathlib import Path
+
+import yaml
+from pydantic import ValidationError
+
+from .parameters import Vehicle
+
+
+class VehicleFileError(ValueError):
+    """A vehicle file that cannot be used; the message names file, item, value and what is accepted."""
+
+
+def parse_vehicle(text, name):
+    """Return the `Vehicle` that a YAML text describes.
+
+    Raises
+    ------
+    VehicleFileError
+        The text is not YAML, or an item is missing, unknown, in the wrong unit or out of range.
+    """
+    try:
+        content = yaml.safe_load(text)
+    except (yaml.YAMLError, ValueError) as error:  # the latter from impossible dates
+        raise VehicleFileError(f"{name}: not a YAML file: {error}") from None
+    try:
+        return Vehicle.model_validate(content)
+    except ValidationError as error:
+        raise VehicleFileError("\n".join(_sentence(name, each) for each in error.errors())) from None
+
+
+def read_vehicle(path):
+    """Return the `Vehicle` in a YAML file and the file's text.
+
+    Raises
+    ------
+    VehicleFileError
+        The file cannot be read, or as in `parse_vehicle`.
+    """
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise VehicleFileError(f"vehicle file {str(path)!r} cannot be read: {error}") from None
+    return parse_vehicle(text, str(path)), text
+
+
+def _sentence(name, error):
+    item = ".".join(str(part) for part in error["loc"])
+    reason = error["msg"].removeprefix("Value error, ")
+    if error["type"] in ("model_type", "model_attributes_type"):
+        return f"{name}: {item or 'the whole file'} is {error['input']!r}: must be a section with items"
+    if error["type"] in ("missing", "value_error"):
+        return f"{name}: {item}: {reason}" if item else f"{name}: {reason}"
+    return f"{name}: {item} is {error['input']!r}: {reason}"
