@@ -49,7 +49,7 @@ def _law(_context, _parameter, value):
               help="Simulated time in s.")
 @click.option("--law", default="passive", show_default=True, callback=_law,
               help=f"Control law: {', '.join(known_laws())}, or package.module:Class.")
-@click.option("--seed", type=click.IntRange(0, 2**31 - 1), default=1, show_default=True, help="Seed of the road.")
+@click.option("--seed", type=click.IntRange(0, 10**9), default=1, show_default=True, help="Seed of the road.")
 @click.option("--out", type=click.Path(file_okay=False), default=None,
               help="Folder to make for the run.  [default: runs/<time>_<road>_<speed>]")
 def run(road_class, speed, duration, law, seed, out):
