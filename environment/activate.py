@@ -27,6 +27,8 @@ def variables(places: Places, ros: Ros, environ) -> dict:
     if ros.prefix and not ros.sourced:
         apply(env, captured["ros"])
     apply(env, captured["workspace"])
+    if ros.prefix is None and environ.get(_MARK) != str(places.root):
+        _add_own_modules(env, places, environ.get("PYTHONPATH"))
     # The virtual environment in front of everything, the stand-in for `ros2` behind: a real one wins.
     put_first(env, "PATH", [str(places.venv / "bin")])
     stand_in = str(places.environment / "bin")
@@ -82,6 +84,13 @@ def _wheels(places: Places) -> dict:
         "LD_LIBRARY_PATH": [str(places.venv / "lib"), *libraries],
     }
     return {"first": first, "set": {"_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"}}
+
+
+def _add_own_modules(env: dict, places: Places, user_path) -> None:
+    """Let a user's own modules be found, but behind the locked packages, which they must not replace."""
+    if user_path:
+        packages = sorted(str(path) for path in places.venv.glob("lib/python3.*/site-packages"))
+        env["PYTHONPATH"] = os.pathsep.join([env["PYTHONPATH"], *packages, user_path])
 
 
 def _home(places: Places) -> str:

@@ -1,11 +1,13 @@
 """What the system tests share: real processes in a ROS domain of their own."""
 
-import itertools
+import fcntl
 import os
 import signal
 import subprocess
 import sys
+import tempfile
 import time
+from pathlib import Path
 
 import pytest
 from ament_index_python.packages import get_package_prefix
@@ -18,7 +20,7 @@ PACKAGES = {
 }
 # Only a bound for what hangs; nothing here measures speed.
 PATIENCE = 90.0
-_domains = itertools.cycle(range(60, 100))
+DOMAINS = range(40, 100)
 
 
 class Process:
@@ -72,10 +74,24 @@ class Process:
             self._process.wait()
 
 
+@pytest.fixture(scope="module")
+def domain():
+    """A ROS domain that no other test on this machine uses at the time, held by a lock on a file."""
+    for number in DOMAINS:
+        with (Path(tempfile.gettempdir()) / f"trackvib_test_domain_{number}").open("w") as file:
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                continue
+            yield number
+            return
+    raise RuntimeError("every ROS domain for tests is in use")
+
+
 @pytest.fixture
-def env():
-    """The environment with a ROS domain that no other test uses at the time."""
-    return {**os.environ, "ROS_DOMAIN_ID": str(next(_domains)), "PYTHONUNBUFFERED": "1"}
+def env(domain):
+    """The environment of the test's processes."""
+    return {**os.environ, "ROS_DOMAIN_ID": str(domain), "PYTHONUNBUFFERED": "1"}
 
 
 @pytest.fixture

@@ -50,6 +50,16 @@ def test_ten_lines_of_the_readme(start, start_node, tmp_path):
     assert "answers: 500 accepted" in simulator.output
 
 
+def test_own_law_in_a_whole_run(start, tmp_path):
+    """`PYTHONPATH=. ./trackvib run --law module:Class` finds a law beside the user, as the README says."""
+    (tmp_path / "my_laws.py").write_text(LAW)
+    options = "--law my_laws:Mine --duration 3 --out run"
+    outside = "env -u TRACKVIB_ENVIRONMENT PYTHONPATH=."  # as from a shell that knows nothing of the environment
+    run = start(["sh", "-c", f"{outside} {README.parent / 'trackvib'} run {options}"])
+    assert run.wait() == 0, run.output
+    assert "law my_laws:Mine" in run.output
+
+
 def test_own_law_on_the_stock_node(my_laws, start_node):
     """`law:=module:Class` runs a law from anywhere, with its own parameters."""
     start_node("road_excitation")

@@ -79,10 +79,11 @@ def test_a_node_that_dies_ends_the_run_with_its_name(start_cli, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--road-class", "Z"], ["--road-class", "'Z'", "'a', 'b', 'c', 'd', 'e', 'f', 'g', 'h'"]),
+        (["--road-class", "Z"], ["--road-class", "'Z'", "'A', 'B', 'C', 'D', 'E', 'F', 'G', 'H'"]),
         (["--speed", "200"], ["--speed", "200", "0.0<=x<=25.0"]),
         (["--speed", "nan"], ["--speed", "nan"]),
         (["--duration", "0"], ["--duration", "0.1<=x<=3600.0"]),
+        (["--duration", "2"], ["--duration", "2 s", "at least 3.0 s"]),
         (["--law", "magic"], ["--law", "magic", "passive, skyhook"]),
         (["--seed", "-1"], ["--seed", "-1", "0<=x<="]),
         (["--out", "/proc/none/run"], ["/proc/none/run", "cannot be made"]),

@@ -84,7 +84,7 @@ def test_road_node_may_start_again(start_node):
 
 
 def test_real_time_follows_the_wall_clock(start_node):
-    """At twice real time all samples are made and answered, none waited for."""
+    """At half real time every sample is made, and every answer is used, late or not."""
     start_node("road_excitation")
     start_node("controller")
     simulator = start_node("simulator", pace="realtime", real_time_factor=0.5, duration=1.0)
@@ -92,6 +92,48 @@ def test_real_time_follows_the_wall_clock(start_node):
     pace = float(re.search(r"at ([\d.]+) x real time", simulator.output)[1])
     # it cannot be faster than asked for; how much slower is the machine's affair
     assert 0.0 < pace <= 0.51
+    counted = [int(n) for n in re.findall(r"(\d+) (?:accepted|late)", simulator.output)]
+    assert sum(counted) >= 990  # the last ones may come after the end
+
+
+def test_real_time_falls_silent_as_well(start_node):
+    """In real time a dead controller is noticed by the wall clock, said once and counted."""
+    start_node("road_excitation")
+    controller = start_node("controller")
+    simulator = start_node("simulator", pace="realtime", duration=4.0, answer_timeout=0.2, on_silence="passive")
+    simulator.wait_for("running")
+    controller.wait_for("first sample")
+    controller.signal(signal.SIGKILL)
+    assert simulator.wait() == 0, simulator.output
+    assert simulator.output.count("falling back to the passive current") == 1
+    assert re.search(r"answers: .*\d+ silent_periods", simulator.output)
+
+
+def test_overturned_vehicle_fails_the_run(start_node):
+    """A road beyond the valid range ends the simulator with an error that names reason and time."""
+    start_node("road_excitation", road_class="H")
+    start_node("controller")
+    simulator = start_node("simulator", speed=25.0)
+    assert simulator.wait() != 0
+    assert re.search(r"error: run failed: .* after t = \d+\.\d+ s", simulator.output), simulator.output
+
+
+def test_rates_of_simulator_and_controller_must_agree(start_node):
+    """A controller that expects another rate ends itself and names both."""
+    start_node("road_excitation")
+    controller = start_node("controller", sample_rate=1000)
+    start_node("simulator", control_rate=500)
+    assert controller.wait() != 0
+    assert "500 Hz" in controller.output and "sample_rate is 1000 Hz" in controller.output
+
+
+def test_shortest_run_is_one_period(start_node):
+    """A duration below a period gives one period, not an endless run."""
+    start_node("road_excitation")
+    start_node("controller")
+    simulator = start_node("simulator", duration=0.0004)
+    assert simulator.wait() == 0
+    assert "answers: 1 accepted" in simulator.output
 
 
 def test_real_time_without_road_stops_with_the_distance(start_node):

@@ -45,15 +45,19 @@ def test_waits_and_ends_cleanly(start_node, tmp_path, name, number):
         ("controller", {"law": "json:JSONDecoder"}, ["'law'", "json:JSONDecoder", "ControlLaw"]),
         ("controller", {"law": "skyhook", "firm_current": 9.0}, ["'firm_current'", "9.0", "0 to 5 A"]),
         ("recorder", {"bag": "/proc/none/bag"}, ["/proc/none/bag", "cannot be made"]),
+        ("recorder", {"topics": "['bad topic']"}, ["'topics'", "bad topic"]),
+        ("recorder", {"topicz": 3}, ["'topicz'", "known are", "topics"]),
+        ("controller", {"sample_rate": 300}, ["'sample_rate'", "300", "divisors"]),
     ],
 )
-def test_bad_parameter_is_refused_by_name(start_node, name, parameters, words):
+def test_bad_parameter_is_refused_by_name(start_node, tmp_path, name, parameters, words):
     """One error names the parameter, its value and what is accepted; the exit code is not 0."""
     node = start_node(name, **parameters)
     assert node.wait() != 0
     for word in words:
         assert word in node.output
     assert node.output.count("error:") == 1 and "Traceback" not in node.output
+    assert list(tmp_path.glob("bag*")) == []
 
 
 @pytest.mark.parametrize("order", list(itertools.permutations(("simulator", "road_excitation", "controller"))))

@@ -1,7 +1,6 @@
 """`trackvib run`: the whole main job, by real processes, judged by what it leaves."""
 
 import json
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -27,11 +26,18 @@ LOOP_TOPICS = ("/chassis/imu", "/powertrain/imu", "/coil_current", "/mount_state
 pytestmark = pytest.mark.system
 
 
-def run(folder, domain, *options):
+@pytest.fixture(scope="module", autouse=True)
+def own_domain(domain):
+    """All runs of this file, one after the other, in one domain of their own."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROS_DOMAIN_ID", str(domain))
+        yield
+
+
+def run(folder, *options):
     """Do a run in a folder and return what it printed."""
     command = [sys.executable, "-m", "trackvib_sim.cli", "run", "--law", "skyhook", "--out", str(folder), *options]
-    env = {**os.environ, "ROS_DOMAIN_ID": str(domain)}
-    done = subprocess.run(command, capture_output=True, text=True, env=env, timeout=300)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout
 
@@ -40,7 +46,7 @@ def run(folder, domain, *options):
 def first(tmp_path_factory):
     """One run of 10 s on class E at 10 m/s: its folder and what it printed."""
     folder = tmp_path_factory.mktemp("runs") / "first"
-    return folder, run(folder, 40)
+    return folder, run(folder)
 
 
 @pytest.fixture(scope="module")
@@ -75,14 +81,14 @@ def test_the_law_acts(drive):
 
 def test_same_seed_gives_identical_streams(first, tmp_path):
     """A second run with the same seed leaves the same bytes on every loop topic."""
-    run(tmp_path / "again", 41)
+    run(tmp_path / "again")
     for topic in LOOP_TOPICS:
         assert stream(first[0], topic) == stream(tmp_path / "again", topic), topic
 
 
 def test_another_seed_gives_another_run(first, tmp_path):
     """Of another seed, the accelerations differ."""
-    run(tmp_path / "other", 42, "--seed", "2", "--duration", "4")
+    run(tmp_path / "other", "--seed", "2", "--duration", "4")
     assert stream(tmp_path / "other", "/chassis/imu") != stream(first[0], "/chassis/imu")[:4000]
 
 

@@ -19,7 +19,7 @@ setup(
         (f"share/{name}/launch", glob("launch/*.launch.py")),
     ],
     install_requires=[
-        "setuptools", "click", "matplotlib", "mcap", "numba", "numpy", "pydantic", "pyyaml", "rich", "rosbags", "scipy",
+        "setuptools", "click", "matplotlib", "mcap", "numba", "numpy", "pydantic>=2", "pyyaml", "rich", "rosbags", "scipy",
     ],
     extras_require={"test": ["hypothesis", "pytest"]},
     zip_safe=True,

@@ -10,7 +10,7 @@ from trackvib_msgs.msg import CoilCurrent
 from .laws import find_law
 from .laws.base import LawError, Sample, answer
 from .node_support import LOOP_QOS, LOOP_WRITER_QOS, LoopNode, NodeError, run_node
-from .parameters import Parameter
+from .parameters import Parameter, ParameterError
 
 PARAMETERS = (
     Parameter("law", "passive", "Control law: a known name, or package.module:Class."),
@@ -18,6 +18,7 @@ PARAMETERS = (
     Parameter("wait_for_recorder", False, "Answer nothing before a recorder listens to the currents, too."),
 )
 NANO = 1_000_000_000
+_CLASH = 5  # wrong steps from the very first sample on are not gaps but another rate
 
 
 class ControllerNode(LoopNode):
@@ -27,11 +28,14 @@ class ControllerNode(LoopNode):
         super().__init__("controller", PARAMETERS)
         law = find_law(self.settings["law"])
         values = self.declare_more(law.parameters)
-        self._period = NANO // self.settings["sample_rate"]
+        rate = self.settings["sample_rate"]
+        if NANO % rate:
+            raise ParameterError(f"controller: parameter 'sample_rate' is {rate}, accepted are divisors of {NANO} Hz")
+        self._period = NANO // rate
         self._law = law(self._period / NANO, **values)
         self._chassis = self._powertrain = None  # latest messages
         self._last = None  # stamp answered last, ns
-        self._gaps = 0
+        self._steps = self._gaps = 0  # between samples, and those among them that were not one period
         self._answer = CoilCurrent()
         self._currents = self.create_publisher(CoilCurrent, "coil_current", LOOP_WRITER_QOS)
         self.create_subscription(Imu, "chassis/imu", self._on_chassis, LOOP_QOS)
@@ -67,8 +71,9 @@ class ControllerNode(LoopNode):
         elif stamp <= self._last:
             self.get_logger().info("the samples start anew: law reset")
             self._law.reset()
-        elif stamp != self._last + self._period:
-            self._note_gap(stamp)
+            self._wait_for_listeners()
+        else:
+            self._check_step(stamp - self._last)
         self._last = stamp
         sample = Sample(
             stamp / NANO,
@@ -85,15 +90,23 @@ class ControllerNode(LoopNode):
         self._answer.current = currents
         self._currents.publish(self._answer)
 
-    def _note_gap(self, stamp):
-        if not self._gaps:
-            self.get_logger().warning(
-                f"samples are {(stamp - self._last) / NANO} s apart, expected {self._period / NANO} s (sample_rate)"
-            )
+    def _check_step(self, step):
+        """Count a gap between samples; raise `NodeError` if they come at another rate altogether."""
+        self._steps += 1
+        if step == self._period:
+            return
         self._gaps += 1
+        if self._gaps == self._steps == _CLASH:
+            raise NodeError(
+                f"samples come {step / NANO} s apart ({NANO / step:g} Hz), sample_rate is {NANO // self._period} Hz: "
+                "the two rates clash"
+            )
+        if self._gaps == 1:
+            self.get_logger().warning(f"samples {step / NANO} s apart, expected {self._period / NANO} s")
 
     def _wait_for_listeners(self):
         self.get_logger().info("first sample received, answering")
+        self._steps = self._gaps = 0
         wanted = 1 + self.settings["wait_for_recorder"]
         # no callbacks are served here: the sample at hand is the one to answer
         while self._currents.get_subscription_count() < wanted and not self.stopping():

@@ -10,7 +10,7 @@ from rclpy._rclpy_pybind11 import RCLError
 from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
-from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
+from rclpy.qos import QoSDurabilityPolicy, QoSProfile
 from rclpy.signals import SignalHandlerOptions
 
 from .parameters import ParameterError
@@ -20,8 +20,6 @@ from .parameters import ParameterError
 LOOP_QOS = QoSProfile(depth=10)
 LOOP_WRITER_QOS = QoSProfile(depth=1000)
 LATCHED_QOS = QoSProfile(depth=10, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
-ROAD_QOS = QoSProfile(depth=64, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)  # all patches around the vehicle
-CLOCK_QOS = QoSProfile(depth=1, reliability=QoSReliabilityPolicy.BEST_EFFORT)
 
 # rclpy declares these itself on every node
 _RCLPY_PARAMETERS = ("use_sim_time", "start_type_description_service", "qos_overrides")

@@ -118,8 +118,7 @@ def test_no_force_off_the_ground(system, moved, level_road, gap, velocity):
     state, _ = _standing(system, moved, system.wheels.radius + gap)
     state.velocity[:] = velocity
     loads, brushes = new_loads(len(system.tree.mass)), _brushes(0.01, -0.01)
-    contacts = add_wheels_on_road(system.wheels, brushes, level_road, moved(system.tree, state), loads, 1e-4)
-    assert contacts == 0
+    add_wheels_on_road(system.wheels, brushes, level_road, moved(system.tree, state), loads, 1e-4)
     assert not loads.force.any() and not loads.moment.any()
     assert not brushes.longitudinal.any() and not brushes.lateral.any()
 
@@ -172,7 +171,7 @@ def test_free_rolling_needs_no_tangential_force(system, moved, level_road, speed
     motion = moved(system.tree, state)
     for _ in range(100):
         loads.force[:] = loads.moment[:] = 0.0
-        assert add_wheels_on_road(wheels, brushes, level_road, motion, loads, 1e-4) == 12
+        add_wheels_on_road(wheels, brushes, level_road, motion, loads, 1e-4)
     vertical = loads.force[wheels.row, 2]
     assert vertical.min() > 0.0
     # slip is the rounding of the speeds, some 1e-15 m/s, times 1e6 N/m and 1e4 N s/m

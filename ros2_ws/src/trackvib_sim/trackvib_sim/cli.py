@@ -42,7 +42,7 @@ def _law(_context, _parameter, value):
 
 
 @main.command()
-@click.option("--road-class", type=click.Choice(list(CLASSES), case_sensitive=False), default="E", show_default=True,
+@click.option("--road-class", type=click.Choice(list(CLASSES)), default="E", show_default=True,
               help="Class of the road by ISO 8608.")
 @click.option("--speed", type=FiniteRange(0.0, 25.0), default=10.0, show_default=True, help="Speed in m/s.")
 @click.option("--duration", type=FiniteRange(0.1, 3600.0), default=10.0, show_default=True,

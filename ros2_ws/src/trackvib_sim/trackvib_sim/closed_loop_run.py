@@ -10,11 +10,12 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
 from .analysis.plots import run_picture
-from .analysis.summary import AXES, SENSORS, TooShort, prepare, settling_time, summarise
+from .analysis.summary import AXES, SENSORS, SHORTEST_MEASURING, TooShort, prepare, settling_time, summarise
 from .bags.reading import read_drive
 from .bags.writing import BagError
 from .installed import closed_loop_parameters
 from .nodes.processes import LoopProcesses
+from .nodes.road_excitation import PARAMETERS as ROAD_PARAMETERS
 from .nodes.watch import Watch
 
 _LOOK = 0.2  # s between looks at processes and progress
@@ -35,6 +36,12 @@ class Choices:
     seed: int
 
     @property
+    def settling(self):
+        """How long the run settles [s], on the road as the node makes it by default."""
+        road = {parameter.name: parameter.default for parameter in ROAD_PARAMETERS}
+        return settling_time(self.speed, road["level_until"] + road["fade"])
+
+    @property
     def title(self):
         """The run in words."""
         return f"class {self.road_class}, {self.speed:g} m/s, law {self.law}, seed {self.seed}, {self.duration:g} s"
@@ -46,10 +53,16 @@ def perform(choices, out):
     Raises
     ------
     RunError
-        The folder exists, a node ended on its own, or the bag cannot be read.
+        The duration is too short, the folder exists, a node ended on its own, or the bag cannot be read.
     KeyboardInterrupt
         After the nodes have ended in order and what there is has been summarised.
     """
+    needed = choices.settling + SHORTEST_MEASURING
+    if choices.duration < needed:
+        raise RunError(
+            f"--duration is {choices.duration:g} s, must be at least {needed:.1f} s at {choices.speed:g} m/s: "
+            f"{choices.settling:.1f} s to settle and {SHORTEST_MEASURING:g} s to measure"
+        )
     console = Console(highlight=False)
     folder = _make_folder(choices, out)
     console.print(f"closed loop: {choices.title}")
@@ -80,7 +93,7 @@ def _run_nodes(choices, folder, console):
     overrides = {
         "road_excitation": {"road_class": choices.road_class, "seed": choices.seed},
         "controller": {"law": choices.law},
-        "recorder": {"bag": folder / "bag"},
+        "recorder": {"bag": str(folder / "bag")},
         "simulator": {"speed": float(choices.speed), "duration": float(choices.duration)},
     }
     processes = LoopProcesses(closed_loop_parameters(), overrides, folder / "log")
@@ -120,9 +133,8 @@ def _follow(processes, duration, console):
 
 def _evaluate(choices, folder, console):
     drive = read_drive(folder / "bag")
-    settle = settling_time(drive.provenance)
-    prepared = prepare(drive, settle)
-    summary = {"run": asdict(choices), **summarise(drive, prepared, settle)}
+    prepared = prepare(drive, choices.settling)
+    summary = {"run": asdict(choices), **summarise(drive, prepared, choices.settling)}
     (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
     run_picture(prepared, choices.title, folder / "run.png")
     with (folder / "summary.txt").open("w", encoding="utf-8") as file:
@@ -147,7 +159,7 @@ def _print_summary(console, summary, folder):
         f"{int(loop['early']) + int(loop['duplicate']) + int(loop['not_finite'])}; saturated {loop['saturated']}",
         f"pace: {float(loop['real_time_factor']):.2f} x real time; of each period physics "
         f"{loop['physics_us_per_period']} us, publishing {loop['publishing_us_per_period']} us, waiting for the answer "
-        f"{loop['waiting_us_per_period']} us",
+        f"{loop['answer_us_per_period']} us, for road or recorder {loop['holding_us_per_period']} us",
         f"left in {folder}: bag/, summary.json, summary.txt, run.png, log/",
     ):
         console.print(line, soft_wrap=True)

@@ -4,13 +4,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..simulation.settings import NANO
 from .vibration import band, band_limited, rms
 
 AXES = ("x", "y", "z")
 SENSORS = ("chassis", "powertrain")
-NANO = 1_000_000_000
 SHORTEST_SETTLING = 2.0  # s
-VEHICLE_BEHIND = 2.5  # m from the hull's origin to where the rear wheels stand
+SHORTEST_MEASURING = 1.0  # s
+VEHICLE_BEHIND = 2.5  # m from the hull's origin to beyond the rear wheels
 
 
 class TooShort(ValueError):
@@ -36,40 +37,34 @@ def prepare(drive, settle):
         Less than one second is left.
     """
     stamp = drive.chassis.stamp
-    if len(stamp) < 2 or (stamp[-1] - stamp[0]) / NANO < settle + 1.0:
+    length = stamp[-1] / NANO
+    if length < settle + SHORTEST_MEASURING:
         raise TooShort(
-            f"the run is {(stamp[-1] - stamp[0]) / NANO if len(stamp) else 0.0:.3f} s long, RMS values need more than "
-            f"{settle + 1.0:g} s ({settle:g} s of settling and 1 s to measure)"
+            f"the run is {length:g} s long, RMS values need {settle + SHORTEST_MEASURING:g} s "
+            f"({settle:g} s of settling and {SHORTEST_MEASURING:g} s to measure)"
         )
     rate = NANO / float(np.median(np.diff(stamp)))
     raw = {sensor: getattr(drive, sensor).specific_force for sensor in SENSORS}
     time = stamp / NANO
     limited = {sensor: band_limited(values, rate) for sensor, values in raw.items()}
-    return Prepared(time, raw, limited, rate, time > time[0] + settle)
+    return Prepared(time, raw, limited, rate, time > settle)
 
 
-def settling_time(provenance):
-    """Return how long the run of a bag settles [s]: until the rear wheels are on the full roughness, at least 2 s.
+def settling_time(speed, full_roughness):
+    """Return how long a run settles [s]: until the rear wheels are on the full roughness, at least 2 s.
 
-    Distances and speed are those of the recorded parameters of the road and simulator nodes.
+    `speed` [m/s] is that of the vehicle, `full_roughness` [m] the distance from which the road has all of it.
     """
-    road = _parameters(provenance, "road_excitation")
-    speed = float(_parameters(provenance, "simulator").get("speed", 0.0))
-    if not road or speed <= 0.0:
-        return SHORTEST_SETTLING
-    full_roughness = float(road["level_until"]) + float(road["fade"])
-    return max(SHORTEST_SETTLING, (full_roughness + VEHICLE_BEHIND) / speed)
-
-
-def _parameters(provenance, node):
-    return next((values for name, values in provenance.items() if name.endswith("/" + node)), {})
+    return max(SHORTEST_SETTLING, (full_roughness + VEHICLE_BEHIND) / speed) if speed > 0.0 else SHORTEST_SETTLING
 
 
 def losses(drive):
-    """Count, from stamps alone, the samples and answers that are missing between the first and the last sample."""
+    """Count, from stamps alone, what is missing between the start and the last sample that anything speaks of."""
     stamp = drive.chassis.stamp
     period = int(np.median(np.diff(stamp)))
-    expected = np.arange(period, stamp[-1] + period, period)
+    told = round(float(drive.diagnostics.get("time", 0.0)) * NANO)  # by the simulator at its end
+    last = max(told, stamp[-1], drive.powertrain.stamp[-1], drive.answered.max())
+    expected = np.arange(period, last + period, period)
     return {
         "samples": len(expected),
         "lost_chassis": int(np.setdiff1d(expected, stamp).size),

@@ -1,5 +1,7 @@
 """Quality of service of a recorded topic, as rosbag2 of Jazzy (metadata version 9) writes it down."""
 
+from ..simulation.settings import NANO
+
 
 def qos_record(profile):
     """Return one entry of `offered_qos_profiles` for an rclpy QoSProfile (or anything with its attributes)."""
@@ -17,5 +19,5 @@ def qos_record(profile):
 
 
 def _time(duration):
-    seconds, nanoseconds = divmod(duration.nanoseconds, 1_000_000_000)
+    seconds, nanoseconds = divmod(duration.nanoseconds, NANO)
     return {"sec": seconds, "nsec": nanoseconds}

@@ -1,5 +1,6 @@
 """Reads what the analysis needs out of a bag."""
 
+from array import array
 from collections import Counter
 from pathlib import Path
 from typing import NamedTuple
@@ -10,6 +11,7 @@ from mcap.reader import make_reader
 from rosbags.highlevel import AnyReader, AnyReaderError
 from rosbags.rosbag2 import ReaderError
 
+from ..simulation.settings import NANO
 from .writing import BagError
 
 
@@ -53,28 +55,43 @@ def _read(path):
     files = sorted(path.glob("*.mcap"))
     if not files:
         raise BagError(f"bag {str(path)!r} holds no .mcap file")
-    rows = {"chassis/imu": [], "powertrain/imu": [], "coil_current": [], "diagnostics": []}
-    counts = Counter()
+    counts, diagnostics = Counter(), {}
+    columns = {"chassis/imu": array("d"), "powertrain/imu": array("d"), "coil_current": array("d")}
+    stamps = {end: array("q") for end in columns}
     with AnyReader(files) as reader:
-        topics = {c.topic: next((end for end in rows if c.topic.endswith(end)), None) for c in reader.connections}
+        ends = {c.topic: next((end for end in columns if c.topic.endswith(end)), None) for c in reader.connections}
         for connection, _, data in reader.messages():
-            counts[connection.topic] += 1
-            end = topics[connection.topic]
-            if end is not None:
-                rows[end].append(reader.deserialize(data, connection.msgtype))
-    missing = [end for end in ("chassis/imu", "powertrain/imu", "coil_current") if not rows[end]]
+            topic, end = connection.topic, ends[connection.topic]
+            counts[topic] += 1
+            if end is None and not topic.endswith("diagnostics"):
+                continue
+            message = reader.deserialize(data, connection.msgtype)
+            if end is None:
+                diagnostics |= _of_simulator(message)
+            elif end == "coil_current":
+                stamps[end].append(_time(message.sample_stamp))
+                columns[end].extend(message.current)
+            else:
+                a, w = message.linear_acceleration, message.angular_velocity
+                stamps[end].append(_time(message.header.stamp))
+                columns[end].extend((a.x, a.y, a.z, w.x, w.y, w.z))
+    missing = [end for end in columns if not columns[end]]
     if missing:
         raise BagError(f"bag {str(path)!r} holds no messages on {', '.join(missing)}")
-    last = rows["diagnostics"][-1].status[0].values if rows["diagnostics"] else []
     return Drive(
-        chassis=_inertial(rows["chassis/imu"]),
-        powertrain=_inertial(rows["powertrain/imu"]),
-        answered=np.array([_time(m.sample_stamp) for m in rows["coil_current"]]),
-        current=np.array([m.current for m in rows["coil_current"]]),
-        diagnostics={pair.key: pair.value for pair in last},
+        chassis=_inertial(stamps["chassis/imu"], columns["chassis/imu"]),
+        powertrain=_inertial(stamps["powertrain/imu"], columns["powertrain/imu"]),
+        answered=np.array(stamps["coil_current"]),
+        current=np.array(columns["coil_current"]).reshape(-1, 2),
+        diagnostics=diagnostics,
         provenance=_provenance(files[0]),
         counts=counts,
     )
+
+
+def _of_simulator(message):
+    """Return the values of the simulator's status, if the message holds it."""
+    return {pair.key: pair.value for each in message.status if each.name == "simulator" for pair in each.values}
 
 
 def _provenance(file):
@@ -82,13 +99,10 @@ def _provenance(file):
         return {record.name: dict(record.metadata) for record in make_reader(stream).iter_metadata()}
 
 
-def _inertial(messages):
-    return Inertial(
-        np.array([_time(m.header.stamp) for m in messages]),
-        np.array([(m.linear_acceleration.x, m.linear_acceleration.y, m.linear_acceleration.z) for m in messages]),
-        np.array([(m.angular_velocity.x, m.angular_velocity.y, m.angular_velocity.z) for m in messages]),
-    )
+def _inertial(stamps, columns):
+    values = np.array(columns).reshape(-1, 6)
+    return Inertial(np.array(stamps), values[:, :3], values[:, 3:])
 
 
 def _time(stamp):
-    return stamp.sec * 1_000_000_000 + stamp.nanosec
+    return stamp.sec * NANO + stamp.nanosec

@@ -37,16 +37,16 @@ class BagWriter:
             raise BagError(f"bag {str(path)!r} cannot be made: {error.strerror}") from None
         self._mcap = Writer(self._file, chunk_size=CHUNK, compression=CompressionType.ZSTD)
         self._mcap.start(profile="ros2", library=LIBRARY)
-        self._topics = {}  # topic -> channel id, type, QoS
+        self._topics = {}  # topic -> channel id, type, QoS, type hash
         self.counts = Counter()
         self._first, self._last = None, 0
 
-    def add_topic(self, topic, type_name, qos):
-        """Announce a topic, its type (`package/msg/Type`) and its offered QoS (list of `qos.qos_record`)."""
+    def add_topic(self, topic, type_name, qos, type_hash):
+        """Announce a topic, its type (`package/msg/Type`), its offered QoS (list of `qos.qos_record`) and type hash."""
         schema = self._mcap.register_schema(type_name, "ros2msg", schema_text(type_name).encode())
-        metadata = {"offered_qos_profiles": yaml.safe_dump(qos, sort_keys=False)}
+        metadata = {"offered_qos_profiles": _to_yaml(qos), "topic_type_hash": type_hash}
         channel = self._mcap.register_channel(topic, "cdr", schema, metadata)
-        self._topics[topic] = (channel, type_name, qos)
+        self._topics[topic] = (channel, type_name, qos, type_hash)
 
     def write(self, topic, stamp, data):
         """Write one serialised message of an announced topic; `stamp` is its time [ns]."""
@@ -64,7 +64,7 @@ class BagWriter:
         """Write the index and `metadata.yaml`."""
         self._mcap.finish()
         self._file.close()
-        text = yaml.safe_dump({"rosbag2_bagfile_information": self._information()}, sort_keys=False)
+        text = _to_yaml({"rosbag2_bagfile_information": self._information()})
         part = self.path / "metadata.yaml.part"
         part.write_text(text, encoding="utf-8")
         part.replace(self.path / "metadata.yaml")
@@ -88,11 +88,11 @@ class BagWriter:
                         "type": type_name,
                         "serialization_format": "cdr",
                         "offered_qos_profiles": qos,
-                        "type_description_hash": "",
+                        "type_description_hash": type_hash,
                     },
                     "message_count": self.counts[topic],
                 }
-                for topic, (_, type_name, qos) in self._topics.items()
+                for topic, (_, type_name, qos, type_hash) in self._topics.items()
             ],
             "compression_format": "",
             "compression_mode": "",
@@ -101,3 +101,14 @@ class BagWriter:
             "custom_data": None,
             "ros_distro": "jazzy",
         }
+
+
+class _Plain(yaml.SafeDumper):
+    """Writes everything out: no anchors and references, which other readers may not follow."""
+
+    def ignore_aliases(self, data):
+        return True
+
+
+def _to_yaml(data):
+    return yaml.dump(data, Dumper=_Plain, sort_keys=False)

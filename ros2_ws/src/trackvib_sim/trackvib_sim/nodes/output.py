@@ -1,7 +1,7 @@
 """What the simulator publishes: its publishers, and when each has something to say."""
 
 from diagnostic_msgs.msg import DiagnosticArray
-from mr_mount_controller.node_support import CLOCK_QOS, LATCHED_QOS, LOOP_WRITER_QOS
+from mr_mount_controller.node_support import LATCHED_QOS, LOOP_WRITER_QOS
 from nav_msgs.msg import Odometry
 from rclpy.duration import Duration
 from rosgraph_msgs.msg import Clock
@@ -13,6 +13,7 @@ from ..simulation.settings import NANO
 from ..simulation.simulation import CHASSIS, POWERTRAIN
 from . import topics
 from .messages import ImuMessage, MountMessage, OdometryMessage, diagnostics
+from .qos import CLOCK_QOS
 
 _FLUSH = Duration(seconds=2)  # for the last messages to arrive
 
@@ -35,12 +36,16 @@ class SimulatorOutput:
         self._clock_out = node.create_publisher(Clock, topics.CLOCK, CLOCK_QOS)
         self._diagnostics_out = node.create_publisher(DiagnosticArray, topics.DIAGNOSTICS, LOOP_WRITER_QOS)
         self._vehicle_out = node.create_publisher(String, topics.VEHICLE_DESCRIPTION, LATCHED_QOS)
-        self._vehicle_out.publish(String(data=vehicle_text))
+        self._vehicle_text = vehicle_text
+
+    def introduce(self):
+        """Publish what the partners need before the start: the vehicle and where it stands."""
+        self._vehicle_out.publish(String(data=self._vehicle_text))
+        self.publish_odometry()
 
     def listeners(self):
-        """Return how many listen to: chassis Imu, powertrain Imu, mounts, diagnostics, clock."""
-        publishers = (*self._imu_out, self._mount_out, self._diagnostics_out, self._clock_out)
-        return [publisher.get_subscription_count() for publisher in publishers]
+        """Return how many listen to the Imu of the chassis and of the powertrain."""
+        return [publisher.get_subscription_count() for publisher in self._imu_out]
 
     def publish_sample(self):
         """Publish the sample of the last period; odometry and clock where it is their turn."""

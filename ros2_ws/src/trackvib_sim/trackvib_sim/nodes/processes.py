@@ -1,6 +1,7 @@
 """The four processes of a closed loop: started together, watched, ended in order."""
 
 import ctypes
+import json
 import signal
 import subprocess
 import time
@@ -33,7 +34,7 @@ class LoopProcesses:
             executable = Path(get_package_prefix(package)) / "lib" / package / name
             command = [str(executable), "--ros-args", "--params-file", str(parameter_file)]
             for parameter, value in overrides.get(name, {}).items():
-                command += ["-p", f"{parameter}:={value}"]
+                command += ["-p", f"{parameter}:={json.dumps(value)}"]  # JSON is YAML, and quotes what needs it
             with (self._log_folder / f"{name}.log").open("wb") as log:
                 self._processes[name] = subprocess.Popen(
                     command,

@@ -7,8 +7,9 @@ from datetime import datetime
 from importlib import import_module
 
 from builtin_interfaces.msg import Time
-from mr_mount_controller.node_support import LOOP_QOS, LoopNode, NodeError, run_node
-from mr_mount_controller.parameters import Parameter
+from mr_mount_controller.node_support import LATCHED_QOS, LoopNode, NodeError, run_node
+from mr_mount_controller.parameters import Parameter, ParameterError
+from rclpy.exceptions import InvalidTopicNameException
 from rclpy.parameter import parameter_value_to_python
 from rclpy.parameter_client import AsyncParameterClient
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
@@ -35,6 +36,7 @@ PARAMETERS = (
     Parameter("bag", "", "Folder of the bag; empty for bag_<date and time> where the node was started."),
     Parameter("topics", DEFAULT_TOPICS, "Topics to record; recording starts when all of them are there."),
 )
+_TIMEKEEPERS = ("sensor_msgs/msg/Imu", "rosgraph_msgs/msg/Clock")  # their stamps are the simulation's own time
 _DEPTH = 1000  # messages that may wait
 _SERVICE_TIMEOUT = 2.0  # s, for a node to tell its parameters
 _UNKNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's word for it
@@ -49,18 +51,20 @@ class RecorderNode(LoopNode):
 
     def __init__(self):
         super().__init__("recorder", PARAMETERS)
+        self._wanted = self._resolve(self.settings["topics"])
+        self._bag = None
+        self._recorded = self.create_publisher(Time, topics.RECORDED, LATCHED_QOS)
+        self._matched = []  # one function a subscription: whether a publisher is connected
+        self._latest = 0  # stamp, ns
+        self._received = 0
+
+    def run(self):
+        """Make the bag, wait for every topic, write down where it comes from, record until told to stop."""
         path = self.settings["bag"] or f"bag_{datetime.now():%Y%m%dT%H%M%S}"
         try:
             self._bag = BagWriter(path)
         except BagError as error:
             raise NodeError(str(error)) from None
-        self._wanted = {self.resolve_topic_name(topic) for topic in self.settings["topics"]}
-        self._recorded = self.create_publisher(Time, topics.RECORDED, LOOP_QOS)
-        self._latest = 0  # stamp, ns
-        self._received = 0
-
-    def run(self):
-        """Wait for every topic, write down where it comes from, record until told to stop."""
         self.get_logger().info(f"waiting for {', '.join(sorted(self._wanted))}")
         if not self.spin_until(lambda: all(map(self.get_publishers_info_by_topic, self._wanted))):
             return
@@ -69,15 +73,19 @@ class RecorderNode(LoopNode):
         self._bag.add_provenance("versions", versions())
         for name in self._publishing_nodes():
             self._bag.add_provenance(f"parameters of {name}", self._parameters_of(name))
-        # only now: whoever waits for a recorder starts when it sees the subscriptions
         for topic in sorted(self._wanted):
             self._subscribe(topic)
+        self.spin_until(lambda: all(matched() for matched in self._matched))
+        self._report()  # whoever waits for a recorder starts with this
         self.get_logger().info(f"recording {len(self._wanted)} topics to {self._bag.path}")
         while not self.stopping():
             if self._take_all():
-                seconds, nanoseconds = divmod(self._latest, NANO)
-                self._recorded.publish(Time(sec=seconds, nanosec=nanoseconds))
+                self._report()
             time.sleep(_REST)
+
+    def _report(self):
+        seconds, nanoseconds = divmod(self._latest, NANO)
+        self._recorded.publish(Time(sec=seconds, nanosec=nanoseconds))
 
     def _take_all(self):
         """Write all that has arrived; returns whether anything had."""
@@ -90,6 +98,8 @@ class RecorderNode(LoopNode):
 
     def close(self):
         """Take what has arrived already, then complete the bag."""
+        if self._bag is None:
+            return
         while self._take_all():
             time.sleep(_QUIET)
         self._bag.close()
@@ -105,23 +115,30 @@ class RecorderNode(LoopNode):
         if any(offer.reliability == QoSReliabilityPolicy.BEST_EFFORT for offer in offers):
             qos.reliability = QoSReliabilityPolicy.BEST_EFFORT
         type_name = infos[0].topic_type
-        self._bag.add_topic(topic, type_name, [qos_record(offer) for offer in offers])
+        self._bag.add_topic(topic, type_name, [qos_record(offer) for offer in offers], str(infos[0].topic_type_hash))
         package, kind, name = type_name.split("/")
         message_type = getattr(import_module(f"{package}.{kind}"), name)
         first_field = next(iter(message_type.get_fields_and_field_types().values()))
         stamped = first_field in ("std_msgs/Header", "builtin_interfaces/Time")
-        self.create_subscription(
-            message_type, topic, lambda data: self._on_message(topic, stamped, data), qos, raw=True
+        keeps_time = type_name in _TIMEKEEPERS
+        subscription = self.create_subscription(
+            message_type, topic, lambda data: self._on_message(topic, stamped, keeps_time, data), qos, raw=True
         )
+        self._matched.append(lambda: subscription.get_publisher_count() > 0)
 
-    def _on_message(self, topic, stamped, data):
-        if stamped:
-            stamp = leading_stamp(data)
+    def _on_message(self, topic, stamped, keeps_time, data):
+        # a stamp of zero is one that nobody filled in
+        stamp = (leading_stamp(data) if stamped else 0) or self._latest
+        if keeps_time:
             self._latest = max(self._latest, stamp)
-        else:
-            stamp = self._latest
         self._bag.write(topic, stamp, data)
         self._received += 1
+
+    def _resolve(self, names):
+        try:
+            return {self.resolve_topic_name(name) for name in names}
+        except InvalidTopicNameException as error:
+            raise ParameterError(f"recorder: parameter 'topics' is {names!r}, accepted are names: {error}") from None
 
     def _publishing_nodes(self):
         infos = (info for topic in sorted(self._wanted) for info in self.get_publishers_info_by_topic(topic))

@@ -2,13 +2,14 @@
 
 import sys
 
-from mr_mount_controller.node_support import LATCHED_QOS, ROAD_QOS, LoopNode, run_node
+from mr_mount_controller.node_support import LATCHED_QOS, LoopNode, run_node
 from mr_mount_controller.parameters import Parameter
 from nav_msgs.msg import Odometry
 from trackvib_msgs.msg import RoadProfile
 
 from ..road.feeder import RoadFeeder
 from ..road.iso8608 import CLASSES, Iso8608Road
+from .qos import ROAD_QOS
 from .topics import ODOMETRY, ROAD_FRAME, ROAD_PROFILE
 
 PARAMETERS = (

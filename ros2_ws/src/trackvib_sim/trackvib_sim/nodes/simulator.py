@@ -1,24 +1,20 @@
 """The simulator node: steps the vehicle, publishes what its sensors measure, and takes the currents that answer."""
 
+import math
 import sys
 import time
 
 from builtin_interfaces.msg import Time
-from mr_mount_controller.node_support import LOOP_QOS, ROAD_QOS, LoopNode, NodeError, run_node
-from mr_mount_controller.parameters import ParameterError
+from mr_mount_controller.node_support import LATCHED_QOS, LOOP_QOS, LoopNode, NodeError, run_node
 from trackvib_msgs.msg import CoilCurrent, RoadProfile
 
-from ..installed import default_vehicle_file
 from ..simulation.exchange import Exchange
-from ..simulation.settings import NANO, Rates, RunSettings
-from ..simulation.simulation import RunFailed, Simulation
-from ..vehicle.coil import usable_current
-from ..vehicle.equilibrium import NoEquilibrium
-from ..vehicle.system import Operation
-from ..vehicle.vehicle_file import VehicleFileError, read_vehicle
+from ..simulation.settings import NANO
+from ..simulation.simulation import RunFailed
 from . import topics
 from .output import SimulatorOutput
-from .simulator_parameters import PARAMETERS
+from .qos import ROAD_QOS
+from .simulator_parameters import PARAMETERS, prepare
 from .timing import PhaseClock
 
 _DIAGNOSTICS_RATE = 10  # Hz of simulated time
@@ -26,6 +22,7 @@ _DISCOVERY = 2.0  # s after which nodes know of each other
 # A message waits in a queue of 1000 at worst, so a recorder this far behind has lost nothing yet.
 _RECORDER_LAG = NANO // 4  # ns of simulated time
 _RECORDER_TIMEOUT = 10.0  # s of wall time
+_LISTENING = 0.7  # s in which a simulator that is there already makes itself known
 _SETTLING = 0.3  # s without a new partner; a controller's two subscriptions are not found in the same instant
 
 
@@ -36,26 +33,27 @@ class SimulatorNode(LoopNode):
         super().__init__("simulator", PARAMETERS)
         s = self.settings
         self._lockstep = s["pace"] == "lockstep"
-        vehicle, text = self._read_vehicle()
-        self._simulation = self._prepare(vehicle)
-        self._exchange = Exchange(s["passive_current"], usable_current(vehicle), self._lockstep)
-        self._phases = PhaseClock("physics", "publishing", "waiting")
+        self._simulation, usable, vehicle_text = prepare(s)
+        self._exchange = Exchange(s["passive_current"], usable, self._lockstep)
+        self._phases = PhaseClock("physics", "publishing", "answer", "holding")
         self._silent = False  # no answer came in time; the loop runs on without waiting
         self._heard = False  # some answer came since
         self._recorded = None  # time up to which the recorder has written, ns; unknown without one
         self._state = "waiting"
 
-        self._output = SimulatorOutput(self, self._simulation, text)
+        self._output = SimulatorOutput(self, self._simulation, vehicle_text)
         self._answers = self.create_subscription(CoilCurrent, topics.COIL_CURRENT, self._on_answer, LOOP_QOS)
         self.create_subscription(RoadProfile, topics.ROAD_PROFILE, self._on_road, ROAD_QOS)
         if s["wait_for_recorder"]:
-            self.create_subscription(Time, topics.RECORDED, self._on_recorded, LOOP_QOS)
+            self.create_subscription(Time, topics.RECORDED, self._on_recorded, LATCHED_QOS)
 
     def run(self):
         """Wait for the partners, then run period after period until the duration is over or a stop is asked for."""
-        self._output.publish_odometry()
+        self.spin_until(self._second_simulator, _LISTENING)
+        self._refuse_second_simulator()
+        self._output.introduce()
         self._wait_for_partners()
-        periods = round(self.settings["duration"] * self._simulation.settings.rates.control)
+        periods = math.ceil(self.settings["duration"] * self._simulation.settings.rates.control)
         start = time.perf_counter()
         self._state = "running"
         while not self.stopping() and (periods == 0 or self._simulation.periods < periods):
@@ -72,6 +70,7 @@ class SimulatorNode(LoopNode):
         self._output.flush()
 
     def _one_period(self, start):
+        self._phases.start("holding")
         if not self._wait_for_road():
             return
         self._phases.start("physics")
@@ -87,9 +86,10 @@ class SimulatorNode(LoopNode):
             self._publish_diagnostics()
             if self._phases.total() < _DISCOVERY:
                 self._refuse_second_simulator()
-        self._phases.start("waiting")
+        self._phases.start("answer" if self._lockstep else "holding")
         if self._lockstep:
             self._wait_for_answer()
+            self._phases.start("holding")
             self._wait_for_recorder()
         else:
             self._wait_for_wall_clock(start)
@@ -99,13 +99,13 @@ class SimulatorNode(LoopNode):
 
     def _wait_for_partners(self):
         """Wait until road, controller and recorder are there and nobody else has come for a moment."""
-        recorder = int(self.settings["wait_for_recorder"])
+        recorder = self.settings["wait_for_recorder"]
         missing = [
             f"a road on {topics.ROAD_PROFILE}",
             f"a controller that listens to {topics.CHASSIS_IMU} or {topics.POWERTRAIN_IMU} and answers on "
             f"{topics.COIL_CURRENT}",
         ]
-        self.get_logger().info("waiting for " + ", ".join([*missing, *["a recorder"] * recorder]))
+        self.get_logger().info("waiting for " + ", ".join([*missing, "a recorder"][: 2 + recorder]))
         seen, since = None, 0.0
 
         def complete():
@@ -114,19 +114,19 @@ class SimulatorNode(LoopNode):
             now = (self._simulation.road_is_enough(), self._answers.get_publisher_count(), *listeners)
             if now != seen:
                 seen, since = now, time.monotonic()
-            there = now[0] and now[1] > 0 and max(listeners[:2]) > recorder and min(listeners) >= recorder
+            there = now[0] and now[1] > 0 and max(listeners) > 0 and (not recorder or self._recorded is not None)
             return there and time.monotonic() - since > _SETTLING
 
         self.spin_until(complete)
-        self._refuse_second_simulator()
         if not self.stopping():
             self.get_logger().info("all partners are there, running")
 
+    def _second_simulator(self):
+        return self.count_publishers(topics.CHASSIS_IMU) > 1
+
     def _refuse_second_simulator(self):
-        if self.count_publishers(topics.CHASSIS_IMU) > 1:
-            raise NodeError(
-                f"another node publishes {topics.CHASSIS_IMU} in this domain; set ROS_DOMAIN_ID or a namespace"
-            )
+        if self._second_simulator():
+            raise NodeError(f"another node publishes {topics.CHASSIS_IMU} in this domain; set another ROS_DOMAIN_ID")
 
     def _wait_for_road(self):
         """Return whether there is road for the next period; in lock-step wait until there is or a stop is asked for."""
@@ -164,12 +164,20 @@ class SimulatorNode(LoopNode):
 
     def _wait_for_wall_clock(self, start):
         due = start + self._simulation.time / NANO / self.settings["real_time_factor"]
+        counts = self._exchange.counts
+        if time.perf_counter() > due + self._simulation.settings.rates.period / NANO:
+            if not counts["overruns"]:
+                self.get_logger().warning("this machine is slower than the pace asked for; overruns are counted")
+            counts["overruns"] += 1
         while (left := due - time.perf_counter()) > 0.0 and not self.stopping():
             self.spin_once(left)
-        self.spin_once(0.0)
+        before = None
+        while before != counts:  # the latest current counts, so none may be left waiting
+            before = counts.copy()
+            self.spin_once(0.0)
         timeout = self.settings["answer_timeout"] * self.settings["real_time_factor"]
         silent = self._simulation.time - self._exchange.answered_stamp > timeout * NANO
-        self._exchange.counts["silent_periods"] += silent
+        counts["silent_periods"] += silent
         if silent and not self._silent:
             self._on_silence(f"no answer since t = {self._exchange.answered_stamp / NANO:.3f} s")
         self._silent = silent
@@ -189,9 +197,9 @@ class SimulatorNode(LoopNode):
     # --- messages ---
 
     def _on_answer(self, message):
-        self._heard = True
         stamp = message.sample_stamp.sec * NANO + message.sample_stamp.nanosec
-        self._exchange.offer(stamp, message.current)
+        # who is late is on the way back; who repeats itself or makes no sense is not
+        self._heard |= self._exchange.offer(stamp, message.current) in ("accepted", "late")
 
     def _on_recorded(self, time_written):
         self._recorded = time_written.sec * NANO + time_written.nanosec
@@ -225,29 +233,6 @@ class SimulatorNode(LoopNode):
         counts = ", ".join(f"{count} {name}" for name, count in self._exchange.counts.items() if count)
         pace = f"{simulated:g} s simulated at {self._phases.factor(simulated):.2f} x real time; a period: {costs}"
         return f"{pace}; answers: {counts}"
-
-    # --- preparing ---
-
-    def _read_vehicle(self):
-        try:
-            return read_vehicle(self.settings["vehicle_file"] or default_vehicle_file())
-        except VehicleFileError as error:
-            raise ParameterError(f"simulator: parameter 'vehicle_file': {error}") from None
-
-    def _prepare(self, vehicle):
-        s = self.settings
-        low, high = vehicle.engine.speed_range
-        engine_speed = s["engine_speed"]
-        if engine_speed != 0.0 and not low <= engine_speed <= high:
-            raise ParameterError(
-                f"simulator: parameter 'engine_speed' is {engine_speed}, accepted is 0 or {low:g} to {high:g} r/min"
-            )
-        try:
-            rates = Rates(s["physics_rate"], s["control_rate"], s["odometry_rate"])
-            operation = Operation(s["speed"], engine_speed, s["engine_excitation"] == "displacement")
-            return Simulation(vehicle, RunSettings(operation, rates, s["passive_current"]))
-        except (NoEquilibrium, ValueError) as error:
-            raise ParameterError(f"simulator: {error}") from None
 
 
 def main(args=None):

@@ -1,6 +1,14 @@
-"""Parameters of the simulator node."""
+"""Parameters of the simulator node, and the simulation that they describe."""
 
-from mr_mount_controller.parameters import Parameter
+from mr_mount_controller.parameters import Parameter, ParameterError
+
+from ..installed import default_vehicle_file
+from ..simulation.settings import Rates, RunSettings
+from ..simulation.simulation import Simulation
+from ..vehicle.coil import usable_current
+from ..vehicle.equilibrium import NoEquilibrium
+from ..vehicle.system import Operation
+from ..vehicle.vehicle_file import VehicleFileError, read_vehicle
 
 PARAMETERS = (
     Parameter("vehicle_file", "", "Vehicle file; empty for the one that comes with the package."),
@@ -33,3 +41,30 @@ PARAMETERS = (
     Parameter("odometry_rate", 100, "Rate of odometry and /clock.", "Hz", 1, 10_000),
     Parameter("wait_for_recorder", False, "Start only with a recorder, and never run far ahead of it."),
 )
+
+
+def prepare(values):
+    """Return the `Simulation` for a dict of parameter values, the range of usable currents [A] and the vehicle's text.
+
+    Raises
+    ------
+    ParameterError
+        A value does not fit the vehicle, or the others.
+    """
+    try:
+        vehicle, text = read_vehicle(values["vehicle_file"] or default_vehicle_file())
+    except VehicleFileError as error:
+        raise ParameterError(f"simulator: parameter 'vehicle_file': {error}") from None
+    low, high = vehicle.engine.speed_range
+    engine_speed = values["engine_speed"]
+    if engine_speed != 0.0 and not low <= engine_speed <= high:
+        raise ParameterError(
+            f"simulator: parameter 'engine_speed' is {engine_speed}, accepted is 0 or {low:g} to {high:g} r/min"
+        )
+    operation = Operation(values["speed"], engine_speed, values["engine_excitation"] == "displacement")
+    try:
+        rates = Rates(values["physics_rate"], values["control_rate"], values["odometry_rate"])
+        simulation = Simulation(vehicle, RunSettings(operation, rates, values["passive_current"]))
+    except (NoEquilibrium, ValueError) as error:
+        raise ParameterError(f"simulator: {error}") from None
+    return simulation, usable_current(vehicle), text

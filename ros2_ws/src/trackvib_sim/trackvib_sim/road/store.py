@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 KEPT_BEHIND = 20.0  # m
+_FAR = 1e15  # samples, up to which whole numbers are exact in floating point
 
 
 class Road(NamedTuple):
@@ -24,7 +25,7 @@ class RoadStore:
         self._stretch = None
 
     def add(self, start, spacing, left, right):
-        """Keep a patch; where two overlap, they are expected to agree, and of two with one start the longer is kept.
+        """Keep a patch; of two with one start the longer is kept, and they must agree.
 
         Parameters
         ----------
@@ -47,11 +48,16 @@ class RoadStore:
         heights = np.array([left, right], dtype=float)
         if not np.isfinite(heights).all():
             raise ValueError("a height is not finite, all must be")
-        first = round(start / spacing) if np.isfinite(start) else 0
+        place = start / spacing
+        first = round(place) if abs(place) < _FAR else 0
         if not abs(first * spacing - start) <= 1e-6 * spacing:
             raise ValueError(f"start is {start} m, must be a whole multiple of the spacing {spacing} m")
+        held = self._patches.get(first, heights)
+        common = min(held.shape[1], heights.shape[1])
+        if not np.array_equal(held[:, :common], heights[:, :common]):
+            raise ValueError(f"start is {start} m, where a patch with other heights is held already: two roads?")
         self._spacing = spacing
-        if first not in self._patches or heights.shape[1] > self._patches[first].shape[1]:
+        if heights.shape[1] >= held.shape[1]:
             self._patches[first] = heights
         self._stretch = None
 

@@ -4,7 +4,7 @@ from collections import Counter
 
 import numpy as np
 
-OUTCOMES = ("accepted", "late", "duplicate", "early", "not_finite", "saturated", "silent_periods")
+OUTCOMES = ("accepted", "late", "duplicate", "early", "not_finite", "saturated", "silent_periods", "overruns")
 
 
 class Exchange:
@@ -18,17 +18,18 @@ class Exchange:
     currents : (2,) array
         The currents in force [A].
     counts : Counter
-        How often each of `OUTCOMES` happened. A current outside `usable` [A] is accepted and counts as saturated as
-        well: driver or mounts will cut it.
+        How often each of `OUTCOMES` happened. A current outside `usable` [A] that is put in force counts as saturated
+        as well: driver or mounts will cut it.
     """
 
     def __init__(self, initial, usable, lockstep=True):
-        self.currents = np.full(2, float(initial))
+        self.currents = np.zeros(2)
         self.counts = Counter(dict.fromkeys(OUTCOMES, 0))
         self._usable = usable
         self._lockstep = lockstep
         self._sample = -1  # stamp of the latest sample, ns; none yet
         self._answered = -2  # stamp of the latest sample that was answered, ns; none yet
+        self._put_in_force(initial)
 
     @property
     def answered_stamp(self):
@@ -50,14 +51,17 @@ class Exchange:
         self.counts[outcome] += 1
         if outcome == "accepted" or (outcome == "late" and not self._lockstep and stamp > self._answered):
             self._answered = stamp
-            self.currents[:] = currents
-            if min(currents) < self._usable[0] or max(currents) > self._usable[1]:
-                self.counts["saturated"] += 1
+            self._put_in_force(currents)
         return outcome
 
     def fall_back(self, current):
         """Put a current [A] in force without an answer."""
-        self.currents[:] = current
+        self._put_in_force(current)
+
+    def _put_in_force(self, currents):
+        self.currents[:] = currents
+        if self.currents.min() < self._usable[0] or self.currents.max() > self._usable[1]:
+            self.counts["saturated"] += 1
 
     def _judge(self, stamp, currents):
         if stamp > self._sample:

@@ -7,10 +7,15 @@ from ..vehicle.equilibrium import rolling_state
 from ..vehicle.running_gear.wheels_on_road import FOOTPRINT
 from ..vehicle.system import build_system, new_work
 from .settings import NANO
-from .step import Sensors, advance, new_sample, observe
+from .step import BELOW_ROAD, GOOD, NOT_FINITE, OVERTURNED, Sensors, advance, new_sample, observe
 
 CHASSIS, POWERTRAIN = 0, 1  # rows of the sample
-_LOOK_AHEAD = 0.5  # m beyond the road that one period can need
+_MARGIN = 0.5  # m of road beyond what a period needs
+_REASONS = {
+    NOT_FINITE: "the state is no longer finite",
+    OVERTURNED: "the vehicle has overturned",
+    BELOW_ROAD: "a road wheel lies below the road",
+}
 
 
 class RunFailed(RuntimeError):
@@ -42,11 +47,11 @@ class Simulation:
         self.sensors = Sensors(
             np.array([mounts.hull, mounts.powertrain]), np.stack((mounts.lower.mean(0), mounts.upper.mean(0)))
         )
-        self.sample = new_sample(self.sensors)
+        self.sample, self._next = new_sample(self.sensors), new_sample(self.sensors)
         self._work = new_work(self.system)
         observe(self.system, self.state, self._work.motion, self.sample)
         reach = max(abs(x) for x in vehicle.swing_arms.wheel_x) + vehicle.swing_arms.length + FOOTPRINT
-        self._reach = reach + _LOOK_AHEAD
+        self._reach = reach + 1.5 * settings.operation.speed / settings.rates.control + _MARGIN
 
     @property
     def time(self):
@@ -68,9 +73,9 @@ class Simulation:
         Raises
         ------
         RunFailed
-            The state is no longer finite. `sample` then holds nothing of use.
+            The state left what the model can describe. `sample` is still the last good one.
         """
-        finite = advance(
+        status = advance(
             self.system,
             self.state,
             self._stretch(),
@@ -78,10 +83,11 @@ class Simulation:
             self.settings.rates.steps,
             self._work,
             self.sensors,
-            self.sample,
+            self._next,
         )
-        if not finite:
-            raise RunFailed(f"the state is no longer finite after t = {self.time / NANO:.3f} s")
+        if status != GOOD:
+            raise RunFailed(f"{_REASONS[status]} after t = {self.time / NANO:.3f} s")
+        self.sample, self._next = self._next, self.sample
         self.periods += 1
 
     def _stretch(self):

@@ -14,8 +14,11 @@ from ..vehicle.driver import add_driver
 from ..vehicle.engine import add_engine, imposed_displacement
 from ..vehicle.hinge_springs import add_hinge_springs
 from ..vehicle.mr_mounts import MountSample, add_mounts, new_mount_sample, observe_mounts
-from ..vehicle.running_gear.wheels_on_road import add_wheels_on_road
+from ..vehicle.running_gear.wheels_on_road import add_wheels_on_road, wheel_below_road
 from ..vehicle.suspension import add_suspension
+
+GOOD, NOT_FINITE, OVERTURNED, BELOW_ROAD = range(4)
+LEAST_UPRIGHT = 0.36  # cosine of the hull's tilt; 1.2 rad is beyond what the suspension and the driver are made for
 
 
 class Sensors(NamedTuple):
@@ -78,7 +81,7 @@ def measure(system, work, sensors, sample, share):
 def advance(system, state, road, demanded, steps, work, sensors, sample):
     """Advance the vehicle by one control period of `steps` physics steps with constant demanded currents (2,) [A].
 
-    Fills `sample` with the period's means. Returns False as soon as the state is no longer finite.
+    Fills `sample` with the period's means. Returns `GOOD`, or at once what made the state leave the valid range.
     """
     sample.specific_force[:] = 0.0
     sample.rate[:] = 0.0
@@ -93,9 +96,13 @@ def advance(system, state, road, demanded, steps, work, sensors, sample):
         total = sweep.linear[0].sum() + sweep.angular[0].sum() + sweep.hinge_acceleration.sum()
         # not np.isfinite: it compiles to total - total == 0, which reassociation turns into "true"
         if not abs(total) < np.inf:
-            return False
+            return NOT_FINITE
+        if work.motion.rotation[0, 8] < LEAST_UPRIGHT:
+            return OVERTURNED
+        if wheel_below_road(system.wheels, road, work.motion):
+            return BELOW_ROAD
     observe(system, state, work.motion, sample)
-    return True
+    return GOOD
 
 
 @kernel

@@ -1,4 +1,7 @@
-"""The driver: keeps speed and lane by torque on the road wheels, as long as the vehicle runs without tracks."""
+"""The driver: keeps speed and lane by torque on the road wheels, as long as the vehicle runs without tracks.
+
+The torque's reaction acts on the hull, where final drives and sprockets sit, not on the swing arms.
+"""
 
 from typing import NamedTuple
 
@@ -6,7 +9,7 @@ import numpy as np
 
 from ..rui.compiled import kernel
 from ..rui.kinematics import body_axes
-from ..rui.spatial import load3
+from ..rui.spatial import add3, load3, scale
 from .body_tree import SIDES, STATIONS, wheel_name
 
 
@@ -58,5 +61,13 @@ def add_driver(driver, motion, loads, integral, dt):
     wheels = driver.wheel.shape[1]
     for i in range(wheels):
         # a moment to the left pulls on the right side
-        loads.torque[driver.wheel[0, i]] += driver.radius * (0.5 * force - steering) / wheels
-        loads.torque[driver.wheel[1, i]] += driver.radius * (0.5 * force + steering) / wheels
+        drive_wheel(motion, loads, driver.wheel[0, i], driver.radius * (0.5 * force - steering) / wheels)
+        drive_wheel(motion, loads, driver.wheel[1, i], driver.radius * (0.5 * force + steering) / wheels)
+
+
+@kernel
+def drive_wheel(motion, loads, wheel, torque):
+    """Turn a wheel about its axle by a torque [N m] that stands on the hull."""
+    moment = scale(torque, load3(motion.axis, wheel))
+    add3(loads.moment, wheel, moment)
+    add3(loads.moment, 0, scale(-1.0, moment))

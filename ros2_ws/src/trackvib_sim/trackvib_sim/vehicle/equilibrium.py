@@ -53,7 +53,7 @@ def static_equilibrium(system, current):
 
     def residual(unknowns):
         state.tree.position[2] = unknowns[0]
-        state.tree.attitude[:] = Rotation.from_euler("xy", unknowns[1:3]).as_quat(scalar_first=True)
+        state.tree.attitude[:] = np.roll(Rotation.from_euler("xy", unknowns[1:3]).as_quat(), 1)  # scalar first
         state.tree.hinge[held] = unknowns[3:]
         _static_accelerations(system, state, LEVEL, work)
         sweep = work.sweep
@@ -75,7 +75,10 @@ def static_equilibrium(system, current):
 
 
 def rolling_state(system, current):
-    """Return the equilibrium state set in motion: hull at the wanted speed, wheels rolling without slip."""
+    """Return the equilibrium state set in motion: hull at the wanted speed, wheels rolling without slip.
+
+    The driver already pulls with what the rubber's damping resists.
+    """
     state = static_equilibrium(system, current)
     work = new_work(system)
     update_motion(system.tree, state.tree, work.motion)
@@ -86,4 +89,5 @@ def rolling_state(system, current):
         force, depth = radial_force(system.wheels, LEVEL, side, hub, (speed, 0.0, 0.0), (1.0, 0.0, 0.0))
         along = force[2] / np.linalg.norm(force)  # of the speed, at the contact that the rubber's damping tilts
         state.tree.hinge_rate[row] = speed * along / (system.wheels.radius - depth)
+        state.speed_integral[0] -= force[0]
     return state

@@ -53,7 +53,7 @@ def new_mount_sample():
 
 
 def mr_mounts(vehicle, rows):
-    """Return the record for the vehicle; the lower ends lie under the upper ends when every hinge is at zero."""
+    """Return the record for the vehicle; both ends lie at one place when every hinge is at zero."""
     m = vehicle.mr_mounts
     x, y, z = m.place
     upper = np.array([[x, y, z], [x, -y, z]])
@@ -68,8 +68,8 @@ def mr_mounts(vehicle, rows):
         static_load=m.static_load,
         lowest_current=m.current_range[0],
         highest_current=m.current_range[1],
-        stiffness_ratio=np.array(m.stiffness_ratio),
-        damping_ratio=np.array(m.damping_ratio),
+        stiffness_ratio=np.array([*m.stiffness_ratio, 1.0]),
+        damping_ratio=np.array([*m.damping_ratio, 1.0]),
     )
 
 

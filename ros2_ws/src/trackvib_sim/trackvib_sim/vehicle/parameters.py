@@ -57,8 +57,8 @@ class MrMounts(Section):
     carried_mass: Mass
     static_load: Gain("N")
     current_range: Range("A")
-    stiffness_ratio: vector("-", 3, ge=0.0)
-    damping_ratio: vector("-", 3, ge=0.0)
+    stiffness_ratio: vector("-", 2, ge=0.0)
+    damping_ratio: vector("-", 2, ge=0.0)
 
     @model_validator(mode="after")
     def _stiff_over_the_range(self):

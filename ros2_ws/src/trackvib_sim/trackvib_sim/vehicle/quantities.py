@@ -18,6 +18,8 @@ def _plain(unit):
             raise ValueError(f"unit is {quantity['unit']!r}, must be {unit!r}")
         if quantity["source"] not in SOURCES:
             raise ValueError(f"source is {quantity['source']!r}, must be one of {', '.join(SOURCES)}")
+        if quantity["source"] == "literature" and not quantity.get("note"):
+            raise ValueError("source is 'literature', so a note must name it")
         value = quantity["value"]
         if any(isinstance(each, bool) for each in (value if isinstance(value, list) else [value])):
             raise ValueError(f"value is {value!r}, must be a number")

@@ -104,8 +104,7 @@ def brush(deflection, slip, travel, properties, relaxation, dt):
 
 @kernel
 def add_wheels_on_road(wheels, brushes, road, motion, loads, dt):
-    """Add the ground's forces to the wheels and advance the brushes by dt; returns the number of wheels in contact."""
-    contacts = 0
+    """Add the ground's forces to the wheels and advance the brushes by dt."""
     for i in range(wheels.row.size):
         b = wheels.row[i]
         hub, velocity, axle = load3(motion.origin, b), load3(motion.velocity, b), load3(motion.axis, b)
@@ -117,7 +116,6 @@ def add_wheels_on_road(wheels, brushes, road, motion, loads, dt):
         if normal == 0.0:
             brushes.longitudinal[i] = brushes.lateral[i] = 0.0
             continue
-        contacts += 1
         up = scale(1.0 / normal, force)
         sideways = (-forward[1], forward[0], 0.0)
         ahead = cross(sideways, up)
@@ -135,4 +133,13 @@ def add_wheels_on_road(wheels, brushes, road, motion, loads, dt):
             f_x, f_y, q_x, q_y = cut * f_x, cut * f_y, cut * q_x, cut * q_y
         brushes.longitudinal[i], brushes.lateral[i] = q_x, q_y
         apply_force(loads, motion, b, contact, add(force, add(scale(f_x, ahead), scale(f_y, sideways))))
-    return contacts
+
+
+@kernel
+def wheel_below_road(wheels, road, motion):
+    """Return whether the hub of any wheel lies below the road, where the rubber's springs know no way out."""
+    for i in range(wheels.row.size):
+        b = wheels.row[i]
+        if motion.origin[b, 2] < road_height(road, wheels.side[i], motion.origin[b, 0]):
+            return True
+    return False

@@ -1,0 +1,45 @@
+"""What a summary says of a run: losses, settling, length."""
+
+from collections import Counter
+
+import numpy as np
+import pytest
+from trackvib_sim.analysis.summary import TooShort, losses, prepare, settling_time
+from trackvib_sim.bags.reading import Drive, Inertial
+
+MS = 1_000_000  # ns
+
+
+def drive(chassis, powertrain, answered, time):
+    """Return a drive with these stamps [ms], whose simulator told its last time [s]."""
+    sensors = [
+        Inertial(np.array(stamps) * MS, np.zeros((len(stamps), 3)), np.zeros((len(stamps), 3)))
+        for stamps in (chassis, powertrain)
+    ]
+    answers = np.array(answered) * MS
+    return Drive(*sensors, answers, np.ones((len(answers), 2)), {"time": str(time)}, {}, Counter())
+
+
+@pytest.mark.property
+def test_losses_are_counted_wherever_they_are():
+    """Missing first, middle and last samples count, the last ones by the time that the simulator told at its end."""
+    whole = list(range(1, 101))
+    nothing = {"samples": 100, "lost_chassis": 0, "lost_powertrain": 0, "unanswered": 0, "answered_twice": 0}
+    assert losses(drive(whole, whole, whole, 0.1)) == nothing
+    counted = losses(drive(whole[:90], whole[3:], [*whole[:50], *whole[51:], 100], 0.1))
+    assert counted == {"samples": 100, "lost_chassis": 10, "lost_powertrain": 3, "unanswered": 1, "answered_twice": 1}
+
+
+@pytest.mark.analytic
+@pytest.mark.parametrize(("speed", "seconds"), [(0.0, 2.0), (5.0, 3.7), (10.0, 2.0), (1.0, 18.5)])
+def test_settling_ends_when_the_rear_wheels_are_on_the_roughness(speed, seconds):
+    """16 m to the full roughness and 2.5 m of vehicle, at least 2 s."""
+    assert settling_time(speed, 16.0) == pytest.approx(seconds)
+
+
+@pytest.mark.property
+def test_a_short_run_is_refused():
+    """A run without a second to measure says how long it is and how long it must be."""
+    stamps = list(range(1, 2500))
+    with pytest.raises(TooShort, match="2.499 s long, RMS values need 3 s"):
+        prepare(drive(stamps, stamps, stamps, 2.499), 2.0)
