@@ -37,6 +37,8 @@ class Process:
                 start_new_session=True,
                 env=env,
                 cwd=folder,
+                # a test run that was started in the background of a script has Ctrl-C ignored, and hands that on
+                preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
             )
         self.pid = self._process.pid
 

@@ -76,6 +76,26 @@ def test_a_node_that_dies_ends_the_run_with_its_name(start_cli, tmp_path):
     assert nodes_of(tmp_path) == []
 
 
+def test_a_second_run_in_the_same_domain_is_refused(start_cli, tmp_path):
+    """It says so before it starts anything, and the first run goes on undisturbed."""
+    first = start_cli("run", "--duration", 600, "--out", tmp_path / "first")
+    wait_for_text(tmp_path / "first" / "log" / "simulator.log", "running")
+    second = start_cli("run", "--out", tmp_path / "second")
+    assert second.wait() == 1
+    assert "a simulator runs in ROS domain" in second.output and "ROS_DOMAIN_ID" in second.output
+    assert not (tmp_path / "second").exists()
+    assert first.running
+
+
+@pytest.mark.parametrize("domain", ["abc", "500", "-1"])
+def test_impossible_domain_is_refused(start_cli, env, domain):
+    """A ROS domain that cannot be is named with what is accepted."""
+    env["ROS_DOMAIN_ID"] = domain
+    run = start_cli("run")
+    assert run.wait() == 1
+    assert f"ROS_DOMAIN_ID is '{domain}', accepted is a whole number from 0 to 232" in run.output
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

@@ -22,7 +22,7 @@ def drive(vehicle, speed, road, periods):
 
 @pytest.mark.property
 def test_overturning_ends_a_run_with_its_reason(vehicle):
-    """Class H at 25 m/s throws the vehicle over: the run fails by name and time, its last sample is the last good one."""
+    """Class H at 25 m/s throws the vehicle over: the run fails by name and time and keeps its last sample."""
     simulation = None
     with pytest.raises(RunFailed, match=r"(overturned|below the road) after t = \d+\.\d{3} s"):
         for simulation in drive(vehicle, 25.0, Iso8608Road("H", 1, 8.0, 8.0), 20_000):

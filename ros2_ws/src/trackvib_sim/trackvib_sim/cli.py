@@ -14,9 +14,13 @@ from .road.iso8608 import CLASSES
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 def main():
     """Vibration laboratory for a tracked vehicle's powertrain on magnetorheological mounts."""
-    # an orderly end, as on Ctrl-C, when the terminal is closed or the process is asked to end
-    for number in (signal.SIGTERM, signal.SIGHUP):
+    # An orderly end, as on Ctrl-C, when the terminal is closed or the process is asked to end; a job started in the
+    # background of a script would otherwise ignore Ctrl-C.
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, lambda *_: _interrupt())
+
+
+    sys.stdout.reconfigure(errors="replace")  # a terminal without the signs for square and box still gets the numbers
 
 
 def _interrupt():

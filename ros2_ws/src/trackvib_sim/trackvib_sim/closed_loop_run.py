@@ -1,6 +1,7 @@
 """One run of the closed loop from the command line: processes, progress, bag, summary, picture."""
 
 import json
+import os
 from dataclasses import asdict, dataclass
 from datetime import datetime
 from pathlib import Path
@@ -18,6 +19,7 @@ from .nodes.processes import LoopProcesses
 from .nodes.road_excitation import PARAMETERS as ROAD_PARAMETERS
 from .nodes.watch import Watch
 
+HIGHEST_DOMAIN = 232  # of ROS 2; beyond it DDS has no ports
 _LOOK = 0.2  # s between looks at processes and progress
 
 
@@ -63,16 +65,26 @@ def perform(choices, out):
             f"--duration is {choices.duration:g} s, must be at least {needed:.1f} s at {choices.speed:g} m/s: "
             f"{choices.settling:.1f} s to settle and {SHORTEST_MEASURING:g} s to measure"
         )
+    _check_domain()
     console = Console(highlight=False)
     folder = _make_folder(choices, out)
     console.print(f"closed loop: {choices.title}")
-    failure = _run_nodes(choices, folder, console)
+    interrupt = _run_nodes(choices, folder, console)
     try:
         _evaluate(choices, folder, console)
     except (BagError, TooShort) as error:
-        failure = failure or RunError(str(error))
-    if failure is not None:
-        raise failure
+        raise interrupt or RunError(str(error)) from None
+    if interrupt is not None:
+        raise interrupt
+
+
+def _check_domain():
+    domain = os.environ.get("ROS_DOMAIN_ID") or "0"
+    if not (domain.isdecimal() and int(domain) <= HIGHEST_DOMAIN):
+        raise RunError(f"ROS_DOMAIN_ID is {domain!r}, accepted is a whole number from 0 to {HIGHEST_DOMAIN}")
+    with Watch() as watch:
+        if watch.simulator_is_there():
+            raise RunError(f"a simulator runs in ROS domain {domain} already; set another ROS_DOMAIN_ID")
 
 
 def _make_folder(choices, out):
@@ -89,7 +101,7 @@ def _make_folder(choices, out):
 
 
 def _run_nodes(choices, folder, console):
-    """Run the nodes to the end; returns what went wrong as an exception, or None."""
+    """Run the nodes to the end; returns the KeyboardInterrupt that cut them short, or None."""
     overrides = {
         "road_excitation": {"road_class": choices.road_class, "seed": choices.seed},
         "controller": {"law": choices.law},
@@ -97,17 +109,17 @@ def _run_nodes(choices, folder, console):
         "simulator": {"speed": float(choices.speed), "duration": float(choices.duration)},
     }
     processes = LoopProcesses(closed_loop_parameters(), overrides, folder / "log")
-    failure = None
+    interrupted = None
     try:
         _follow(processes, choices.duration, console)
     except KeyboardInterrupt as interrupt:
-        failure = interrupt
+        interrupted = interrupt
     first = processes.ended()
     codes = processes.stop()
-    if failure is None and any(codes.values()):
+    if interrupted is None and any(codes.values()):
         name = next(name for name in (*first, *codes) if codes[name])
-        failure = RunError(f"node '{name}' ended with exit code {codes[name]}; it said:\n{processes.last_words(name)}")
-    return failure
+        raise RunError(f"node '{name}' ended with exit code {codes[name]}; it said:\n{processes.last_words(name)}")
+    return interrupted
 
 
 def _follow(processes, duration, console):
@@ -127,7 +139,7 @@ def _follow(processes, duration, console):
                     task,
                     description=values["state"],
                     completed=float(values["time"]),
-                    pace=values["real_time_factor"],
+                    pace=f"{float(values['real_time_factor']):.2f}",
                 )
 
 
@@ -138,8 +150,8 @@ def _evaluate(choices, folder, console):
     (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
     run_picture(prepared, choices.title, folder / "run.png")
     with (folder / "summary.txt").open("w", encoding="utf-8") as file:
-        for target in (console, Console(file=file, width=100)):
-            _print_summary(target, summary, folder)
+        _print_summary(Console(file=file, width=100), summary, folder)
+    _print_summary(console, summary, folder)
 
 
 def _print_summary(console, summary, folder):

@@ -13,6 +13,7 @@ from rclpy.exceptions import InvalidTopicNameException
 from rclpy.parameter import parameter_value_to_python
 from rclpy.parameter_client import AsyncParameterClient
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
+from rclpy.validate_topic_name import validate_topic_name
 
 from ..bags.qos import qos_record
 from ..bags.stamps import leading_stamp
@@ -100,9 +101,15 @@ class RecorderNode(LoopNode):
         """Take what has arrived already, then complete the bag."""
         if self._bag is None:
             return
-        while self._take_all():
-            time.sleep(_QUIET)
-        self._bag.close()
+        last = time.monotonic()
+        while time.monotonic() - last < _QUIET:
+            self.spin_once(_QUIET / 10)
+            if self._take_all():
+                last = time.monotonic()
+        try:
+            self._bag.close()
+        except OSError as error:
+            raise NodeError(f"bag {str(self._bag.path)!r} is not complete: {error.strerror}") from None
         self.get_logger().info(f"{self._bag.counts.total()} messages in {self._bag.path}")
 
     def _subscribe(self, topic):
@@ -131,12 +138,19 @@ class RecorderNode(LoopNode):
         stamp = (leading_stamp(data) if stamped else 0) or self._latest
         if keeps_time:
             self._latest = max(self._latest, stamp)
-        self._bag.write(topic, stamp, data)
+        self._write(topic, stamp, data)
         self._received += 1
+
+    def _write(self, topic, stamp, data):
+        try:
+            self._bag.write(topic, stamp, data)
+        except OSError as error:
+            path, self._bag = self._bag.path, None
+            raise NodeError(f"bag {str(path)!r} cannot be written any more: {error.strerror}") from None
 
     def _resolve(self, names):
         try:
-            return {self.resolve_topic_name(name) for name in names}
+            return {self.resolve_topic_name(name) for name in names if validate_topic_name(name)}
         except InvalidTopicNameException as error:
             raise ParameterError(f"recorder: parameter 'topics' is {names!r}, accepted are names: {error}") from None
 

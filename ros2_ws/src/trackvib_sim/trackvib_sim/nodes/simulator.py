@@ -38,6 +38,7 @@ class SimulatorNode(LoopNode):
         self._phases = PhaseClock("physics", "publishing", "answer", "holding")
         self._silent = False  # no answer came in time; the loop runs on without waiting
         self._heard = False  # some answer came since
+        self._warned = False  # of several controllers
         self._recorded = None  # time up to which the recorder has written, ns; unknown without one
         self._state = "waiting"
 
@@ -213,7 +214,11 @@ class SimulatorNode(LoopNode):
     def _publish_diagnostics(self):
         counts = self._exchange.counts
         level = "ok"
-        if self._silent or counts["saturated"]:
+        controllers = self._answers.get_publisher_count()
+        if controllers > 1 and not self._warned:
+            self._warned = True
+            self.get_logger().warning(f"{controllers} nodes answer on {topics.COIL_CURRENT}; the first answer counts")
+        if self._silent or counts["saturated"] or controllers > 1:
             level = "warning"
         if self._state == "failed":
             level = "error"
@@ -221,6 +226,7 @@ class SimulatorNode(LoopNode):
             "state": self._state,
             "time": self._simulation.time / NANO,
             "duration": self.settings["duration"],
+            "controllers": controllers,
             "real_time_factor": round(self._phases.factor(self._simulation.time / NANO), 3),
             **counts,
             **{f"{phase}_us_per_period": cost for phase, cost in self._phases.costs().items()},

@@ -1,11 +1,15 @@
 """Follows a running simulator from outside, for whoever shows its progress."""
 
+import time
+
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.experimental import EventsExecutor
 from rclpy.signals import SignalHandlerOptions
 
-from .topics import DIAGNOSTICS
+from .topics import CHASSIS_IMU, DIAGNOSTICS
+
+_LISTENING = 0.7  # s in which nodes that are there make themselves known
 
 
 class Watch:
@@ -24,6 +28,15 @@ class Watch:
         self._executor.shutdown()
         self._node.destroy_node()
         rclpy.try_shutdown()
+
+    def simulator_is_there(self):
+        """Listen for a moment; returns whether a simulator already runs in this ROS domain."""
+        end = time.monotonic() + _LISTENING
+        while time.monotonic() < end:
+            self._executor.spin_once(timeout_sec=_LISTENING / 10)
+            if self._node.count_publishers(CHASSIS_IMU):
+                return True
+        return False
 
     def look(self, timeout):
         """Wait at most `timeout` seconds for news; returns the latest values as text, empty before the first."""
