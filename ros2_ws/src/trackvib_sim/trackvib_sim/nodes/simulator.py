@@ -6,6 +6,7 @@ import time
 
 from builtin_interfaces.msg import Time
 from mr_mount_controller.node_support import LATCHED_QOS, LOOP_QOS, LoopNode, NodeError, run_node
+from rosgraph_msgs.msg import Clock
 from trackvib_msgs.msg import CoilCurrent, RoadProfile
 
 from ..simulation.exchange import Exchange
@@ -13,12 +14,11 @@ from ..simulation.settings import NANO
 from ..simulation.simulation import RunFailed
 from . import topics
 from .output import SimulatorOutput
-from .qos import ROAD_QOS
+from .qos import CLOCK_QOS, ROAD_QOS
 from .simulator_parameters import PARAMETERS, prepare
 from .timing import PhaseClock
 
 _DIAGNOSTICS_RATE = 10  # Hz of simulated time
-_DISCOVERY = 2.0  # s after which nodes know of each other
 # A message waits in a queue of 1000 at worst, so a recorder this far behind has lost nothing yet.
 _RECORDER_LAG = NANO // 4  # ns of simulated time
 _RECORDER_TIMEOUT = 10.0  # s of wall time
@@ -36,6 +36,7 @@ class SimulatorNode(LoopNode):
         self._simulation, usable, vehicle_text = prepare(s)
         self._exchange = Exchange(s["passive_current"], usable, self._lockstep)
         self._phases = PhaseClock("physics", "publishing", "answer", "holding")
+        self._clock_ahead = False  # somebody else's clock; of two simulators the one that is behind gives way
         self._silent = False  # no answer came in time; the loop runs on without waiting
         self._heard = False  # some answer came since
         self._warned = False  # of several controllers
@@ -45,15 +46,17 @@ class SimulatorNode(LoopNode):
         self._output = SimulatorOutput(self, self._simulation, vehicle_text)
         self._answers = self.create_subscription(CoilCurrent, topics.COIL_CURRENT, self._on_answer, LOOP_QOS)
         self.create_subscription(RoadProfile, topics.ROAD_PROFILE, self._on_road, ROAD_QOS)
+        self.create_subscription(Clock, topics.CLOCK, self._on_clock, CLOCK_QOS)
         if s["wait_for_recorder"]:
             self.create_subscription(Time, topics.RECORDED, self._on_recorded, LATCHED_QOS)
 
     def run(self):
         """Wait for the partners, then run period after period until the duration is over or a stop is asked for."""
-        self.spin_until(self._second_simulator, _LISTENING)
-        self._refuse_second_simulator()
+        self.spin_until(lambda: self._clock_ahead, _LISTENING)
+        self._refuse_second_clock()
         self._output.introduce()
         self._wait_for_partners()
+        self._refuse_second_clock()
         periods = math.ceil(self.settings["duration"] * self._simulation.settings.rates.control)
         start = time.perf_counter()
         self._state = "running"
@@ -85,8 +88,7 @@ class SimulatorNode(LoopNode):
         self._output.publish_sample()
         if self._simulation.periods % (self._simulation.settings.rates.control // _DIAGNOSTICS_RATE) == 0:
             self._publish_diagnostics()
-            if self._phases.total() < _DISCOVERY:
-                self._refuse_second_simulator()
+            self._refuse_second_clock()
         self._phases.start("answer" if self._lockstep else "holding")
         if self._lockstep:
             self._wait_for_answer()
@@ -118,16 +120,13 @@ class SimulatorNode(LoopNode):
             there = now[0] and now[1] > 0 and max(listeners) > 0 and (not recorder or self._recorded is not None)
             return there and time.monotonic() - since > _SETTLING
 
-        self.spin_until(complete)
+        self.spin_until(lambda: complete() or self._clock_ahead)
         if not self.stopping():
             self.get_logger().info("all partners are there, running")
 
-    def _second_simulator(self):
-        return self.count_publishers(topics.CHASSIS_IMU) > 1
-
-    def _refuse_second_simulator(self):
-        if self._second_simulator():
-            raise NodeError(f"another node publishes {topics.CHASSIS_IMU} in this domain; set another ROS_DOMAIN_ID")
+    def _refuse_second_clock(self):
+        if self._clock_ahead:
+            raise NodeError(f"another simulator drives {topics.CLOCK} in this ROS domain; set another ROS_DOMAIN_ID")
 
     def _wait_for_road(self):
         """Return whether there is road for the next period; in lock-step wait until there is or a stop is asked for."""
@@ -201,6 +200,9 @@ class SimulatorNode(LoopNode):
         stamp = message.sample_stamp.sec * NANO + message.sample_stamp.nanosec
         # who is late is on the way back; who repeats itself or makes no sense is not
         self._heard |= self._exchange.offer(stamp, message.current) in ("accepted", "late")
+
+    def _on_clock(self, message):
+        self._clock_ahead |= message.clock.sec * NANO + message.clock.nanosec > self._simulation.time
 
     def _on_recorded(self, time_written):
         self._recorded = time_written.sec * NANO + time_written.nanosec
