@@ -2,6 +2,8 @@
 
 import json
 import os
+import socket
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from datetime import datetime
 from pathlib import Path
@@ -65,11 +67,11 @@ def perform(choices, out):
             f"--duration is {choices.duration:g} s, must be at least {needed:.1f} s at {choices.speed:g} m/s: "
             f"{choices.settling:.1f} s to settle and {SHORTEST_MEASURING:g} s to measure"
         )
-    _check_domain()
     console = Console(highlight=False)
-    folder = _make_folder(choices, out)
-    console.print(f"closed loop: {choices.title}")
-    interrupt = _run_nodes(choices, folder, console)
+    with _own_domain():
+        folder = _make_folder(choices, out)
+        console.print(f"closed loop: {choices.title}")
+        interrupt = _run_nodes(choices, folder, console)
     try:
         _evaluate(choices, folder, console)
     except (BagError, TooShort) as error:
@@ -78,13 +80,24 @@ def perform(choices, out):
         raise interrupt
 
 
-def _check_domain():
+@contextmanager
+def _own_domain():
+    """Hold the ROS domain against further runs; raise `RunError` if it is impossible or taken."""
     domain = os.environ.get("ROS_DOMAIN_ID") or "0"
     if not (domain.isdecimal() and int(domain) <= HIGHEST_DOMAIN):
         raise RunError(f"ROS_DOMAIN_ID is {domain!r}, accepted is a whole number from 0 to {HIGHEST_DOMAIN}")
-    with Watch() as watch:
-        if watch.simulator_is_there():
-            raise RunError(f"a simulator runs in ROS domain {domain} already; set another ROS_DOMAIN_ID")
+    taken = RunError(f"a simulator runs in ROS domain {domain} already; set another ROS_DOMAIN_ID")
+    # a name that the kernel frees with the process, however that ends
+    with socket.socket(socket.AF_UNIX) as claim:
+        try:
+            claim.bind(f"\0trackvib_run_in_domain_{int(domain)}")
+        except OSError:
+            raise taken from None
+        # a simulator that was started by hand is seen if it makes itself known in time
+        with Watch() as watch:
+            if watch.simulator_is_there():
+                raise taken
+        yield
 
 
 def _make_folder(choices, out):
