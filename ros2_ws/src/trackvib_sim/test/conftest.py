@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 from hypothesis import settings
+from scipy.spatial.transform import Rotation
 from trackvib_sim.installed import default_vehicle_file
 from trackvib_sim.road.store import Road
 from trackvib_sim.rui.kinematics import new_motion, update_motion
@@ -148,3 +149,18 @@ def simulation(vehicle):
         return Simulation(vehicle, RunSettings(operation, Rates(physics=physics), 1.0))
 
     return make
+
+
+@pytest.fixture(scope="session")
+def drifted():
+    """The state of a tree after dt at constant speeds: `drifted(state, dt)`."""
+
+    def drift(state, dt):
+        turned = Rotation.from_rotvec(dt * state.rate) * Rotation.from_quat(state.attitude, scalar_first=True)
+        return state._replace(
+            position=state.position + dt * state.velocity,
+            attitude=turned.as_quat(scalar_first=True),
+            hinge=state.hinge + dt * state.hinge_rate,
+        )
+
+    return drift

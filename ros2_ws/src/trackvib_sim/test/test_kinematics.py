@@ -14,20 +14,10 @@ SEEDS = st.integers(0, 2**32 - 1)
 FEW = settings(max_examples=20)
 
 
-def drifted(state, dt):
-    """The state after dt at constant speeds."""
-    turned = Rotation.from_rotvec(dt * state.rate) * Rotation.from_quat(state.attitude, scalar_first=True)
-    return state._replace(
-        position=state.position + dt * state.velocity,
-        attitude=turned.as_quat(scalar_first=True),
-        hinge=state.hinge + dt * state.hinge_rate,
-    )
-
-
 @pytest.mark.analytic
 @FEW
 @given(seed=SEEDS)
-def test_velocity_is_the_rate_of_place(system, random_state, moved, seed):
+def test_velocity_is_the_rate_of_place(system, random_state, moved, seed, drifted):
     """The velocity of a point of every body is the derivative of its place."""
     tree, h = system.tree, 1e-5
     state = random_state(tree, seed)
@@ -43,7 +33,7 @@ def test_velocity_is_the_rate_of_place(system, random_state, moved, seed):
 @pytest.mark.analytic
 @FEW
 @given(seed=SEEDS)
-def test_rate_is_the_rate_of_attitude(system, random_state, moved, seed):
+def test_rate_is_the_rate_of_attitude(system, random_state, moved, seed, drifted):
     """The angular velocity of every body is the derivative of its attitude."""
     tree, h = system.tree, 1e-5
     state = random_state(tree, seed)
