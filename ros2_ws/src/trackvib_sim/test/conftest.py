@@ -1,6 +1,7 @@
 """What several test files share: the shipped vehicle, its records, and reproducible random states."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -8,10 +9,13 @@ from hypothesis import settings
 from scipy.spatial.transform import Rotation
 from trackvib_sim.installed import default_vehicle_file
 from trackvib_sim.road.store import Road
+from trackvib_sim.rui.cells import columns
+from trackvib_sim.rui.cuts import CUT, FORCE, MOMENT, TORQUE, new_cuts, open_cuts
 from trackvib_sim.rui.kinematics import new_motion, update_motion
-from trackvib_sim.rui.loads import new_loads
-from trackvib_sim.rui.riccati import new_sweep, solve_accelerations
-from trackvib_sim.rui.tree import rest_state
+from trackvib_sim.rui.riccati import new_response, solve_accelerations
+from trackvib_sim.rui.state import Loads, TreeState, rest_state
+from trackvib_sim.rui.table import Body, Hinge
+from trackvib_sim.rui.tree import new_rows, to_lanes
 from trackvib_sim.simulation.settings import Rates, RunSettings
 from trackvib_sim.simulation.simulation import Simulation
 from trackvib_sim.vehicle.body_tree import body_table
@@ -36,15 +40,15 @@ def table(vehicle):
 
 
 @pytest.fixture(scope="session")
-def rows(table):
-    """Row in the tree of each body's name."""
-    return {body.name: row for row, body in enumerate(table)}
-
-
-@pytest.fixture(scope="session")
 def system(vehicle):
     """Its system record at 10 m/s with the engine at rated speed."""
     return build_system(vehicle, Operation(10.0, 1650.0, False), 1e-4)
+
+
+@pytest.fixture(scope="session")
+def rows(table, system):
+    """Row in the tree of each body's name."""
+    return {body.name: row for body, row in zip(table, system.tree.row.tolist(), strict=True)}
 
 
 @pytest.fixture(scope="session")
@@ -64,45 +68,45 @@ def level_road():
 
 
 @pytest.fixture(scope="session")
-def random_state():
-    """A function that returns a state of a tree in which everything turns and moves."""
+def random_state(table):
+    """A function that returns a state of the vehicle in which everything turns and moves, in the order of its table."""
 
-    def make(tree, seed, hinge=0.3, speed=1.0):
-        random = np.random.default_rng(seed)
-        state = rest_state(tree)
-        attitude = random.normal(size=4)
-        state.attitude[:] = attitude / np.linalg.norm(attitude)
-        state.position[:] = random.normal(size=3)
-        state.velocity[:] = speed * random.normal(size=3)
-        state.rate[:] = speed * random.normal(size=3)
-        state.hinge[1:] = hinge * random.normal(size=len(tree.mass) - 1)
-        state.hinge_rate[1:] = speed * random.normal(size=len(tree.mass) - 1)
+    def make(seed, hinge=0.3, speed=1.0):
+        random, n = np.random.default_rng(seed), len(table)
+        attitude = random.normal(size=(1, 4))
+        state = TreeState(
+            position=random.normal(size=(1, 3)),
+            attitude=attitude / np.linalg.norm(attitude),
+            velocity=speed * random.normal(size=(1, 3)),
+            rate=speed * random.normal(size=(1, 3)),
+            hinge=hinge * random.normal(size=n),
+            hinge_rate=speed * random.normal(size=n),
+        )
+        state.hinge[0] = state.hinge_rate[0] = 0.0
         return state
 
     return make
 
 
 @pytest.fixture(scope="session")
-def random_loads():
-    """A function that returns random loads on n bodies."""
+def random_loads(table):
+    """A function that returns random loads on the vehicle's bodies, in the order of its table."""
 
-    def make(n, seed, size=1e4):
-        random = np.random.default_rng(seed)
-        loads = new_loads(n)
-        loads.force[:] = size * random.normal(size=(n, 3))
-        loads.moment[:] = size * random.normal(size=(n, 3))
-        loads.torque[1:] = size * random.normal(size=n - 1)
-        return loads
+    def make(seed, size=1e4):
+        random, n = np.random.default_rng(seed), len(table)
+        torque = size * random.normal(size=n)
+        torque[0] = 0.0
+        return Loads(size * random.normal(size=(n, 3)), size * random.normal(size=(n, 3)), torque, np.zeros(n))
 
     return make
 
 
 @pytest.fixture(scope="session")
 def moved():
-    """A function that returns the motion record of a state."""
+    """A function that returns the motion record of a state in rows."""
 
     def move(tree, state):
-        motion = new_motion(len(tree.mass))
+        motion = new_motion(tree)
         update_motion(tree, state, motion)
         return motion
 
@@ -110,15 +114,112 @@ def moved():
 
 
 @pytest.fixture(scope="session")
-def solved(moved):
-    """A function that returns motion and sweep records of a state under loads."""
+def random_motion(system, random_state, moved):
+    """A function that returns the vehicle's motion record in a random state."""
+    return lambda seed: moved(system.tree, to_lanes(system.tree, random_state(seed)))
 
-    def solve(tree, state, loads=None):
-        motion, sweep = moved(tree, state), new_sweep(len(tree.mass))
-        solve_accelerations(tree, state, motion, loads or new_loads(len(tree.mass)), sweep)
-        return motion, sweep
+
+@pytest.fixture(scope="session")
+def added():
+    """A function that returns what a kernel has added to empty cuts, by row, and that it is loads and nothing else."""
+
+    def look(cuts):
+        everything = columns(cuts, 0, CUT)
+        known = everything[:, FORCE : TORQUE + 1]
+        assert np.count_nonzero(everything) == np.count_nonzero(known)
+        return Added(columns(cuts, FORCE, 3), columns(cuts, MOMENT, 3), columns(cuts, TORQUE, 1)[:, 0])
+
+    return look
+
+
+class Added(NamedTuple):
+    """Loads by row, moments about the bodies' origins."""
+
+    force: np.ndarray
+    moment: np.ndarray
+    torque: np.ndarray
+
+
+@pytest.fixture(scope="session")
+def solved(moved):
+    """A function that returns the records of both sweeps, for torques in rows; `load(motion, cuts)` may add loads."""
+
+    def solve(tree, state, torques=None, load=None):
+        motion, cuts, response = moved(tree, state), new_cuts(tree), new_response(tree)
+        open_cuts(tree, motion, new_rows(tree) if torques is None else torques, cuts)
+        if load is not None:
+            load(motion, cuts)
+        solve_accelerations(tree, motion, cuts, response)
+        return motion, cuts, response
 
     return solve
+
+
+# Parent row of every body after the root, and which of them hang on elastic hinges where those are asked for.
+SHAPES = {
+    "single": ((), ()),
+    "chain": ((0, 1, 2, 3, 4, 5), (3,)),
+    "bush": ((0,) * 12, ()),
+    "branches": ((*(0,) * 9, *range(1, 10), *range(1, 9), 9, 18), ()),
+    "stalk": ((0, *(1,) * 16, 2, 2), ()),
+    "hung": ((0, *(0,) * 9, *(1,) * 10, 12), (1, 21)),
+}
+
+
+@pytest.fixture(scope="session")
+def shaped_table():
+    """A function `shaped_table(shape, seed, kinds)` that returns a random table of one of `SHAPES`, a state and loads.
+
+    `kinds` are hinge kinds to choose from; "prescribed" is a revolute or slide whose motion is given, and "elastic"
+    makes the hinges so that the shape says so. Bodies are boxes of 1 to 100 kg; everything turns and moves.
+    """
+
+    def make(shape, seed, kinds=("revolute", "slide")):
+        random, (parents, elastic) = np.random.default_rng(seed), SHAPES[shape]
+        bodies = []
+        for row, parent in enumerate((None, *parents)):
+            hinge = None
+            if row:
+                free = "elastic" in kinds and row in elastic
+                kind = "elastic" if free else str(random.choice([kind for kind in kinds if kind != "elastic"]))
+                hinge = _random_hinge(random, 100 + row, kind, bodies[parent].name)
+            mass, sides = 10.0 ** random.uniform(0.0, 2.0), random.uniform(0.3, 1.2, 3)
+            turn = Rotation.random(rng=random).as_matrix()
+            inertia = turn @ np.diag(mass / 12.0 * (np.sum(sides**2) - sides**2)) @ turn.T
+            bodies.append(Body(1 + row, f"b{row}", mass, 0.2 * random.normal(size=3), inertia, hinge))
+        n, state = len(bodies), rest_state(bodies)
+        free = len(state.position)
+        # near rest, so that elastic hinges stay near their undeformed place; then turned as a whole
+        turn = Rotation.random(rng=random)
+        attitude = turn * Rotation.from_rotvec(0.3 * random.normal(size=(free, 3)))
+        state = TreeState(
+            position=turn.apply(state.position + 0.05 * random.normal(size=(free, 3))) + random.normal(size=3),
+            attitude=attitude.as_quat(scalar_first=True),
+            velocity=random.normal(size=(free, 3)),
+            rate=random.normal(size=(free, 3)),
+            hinge=0.3 * random.normal(size=n),
+            hinge_rate=random.normal(size=n),
+        )
+        driven = [body.hinge is not None and body.hinge.prescribed for body in bodies]
+        loads = Loads(
+            force=100.0 * random.normal(size=(n, 3)),
+            moment=100.0 * random.normal(size=(n, 3)),
+            torque=100.0 * random.normal(size=n),
+            acceleration=np.where(driven, 10.0 * random.normal(size=n), 0.0),
+        )
+        return bodies, state, loads
+
+    return make
+
+
+def _random_hinge(random, number, kind, parent):
+    place, axis = 0.4 * random.normal(size=3), random.normal(size=3)
+    if kind == "elastic":
+        stiffness, damping = random.uniform(100.0, 1e4, 6), random.uniform(10.0, 100.0, 6)
+        return Hinge(number, kind, parent, place, stiffness=stiffness, damping=damping)
+    if kind == "prescribed":
+        return Hinge(number, str(random.choice(["revolute", "slide"])), parent, place, axis, prescribed=True)
+    return Hinge(number, kind, parent, place, axis)
 
 
 @dataclass(frozen=True)
@@ -153,7 +254,7 @@ def simulation(vehicle):
 
 @pytest.fixture(scope="session")
 def drifted():
-    """The state of a tree after dt at constant speeds: `drifted(state, dt)`."""
+    """A state after dt at constant speeds: `drifted(state, dt)`."""
 
     def drift(state, dt):
         turned = Rotation.from_rotvec(dt * state.rate) * Rotation.from_quat(state.attitude, scalar_first=True)

@@ -1,11 +1,15 @@
 """The body table and the tree made of it: the numbers of the paper, and what is refused."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from trackvib_sim.rui.tree import SLIDE, build_tree, rest_state
+from trackvib_sim.rui.cells import columns
+from trackvib_sim.rui.kinematics import HINGE_AXIS, ORIGIN
+from trackvib_sim.rui.table import Hinge, check_table
+from trackvib_sim.rui.tree import build_tree, rest_lanes
 from trackvib_sim.vehicle.body_tree import SIDES, STATIONS, body_table, wheel_name
 
 # [Tao2025], numbering of the body subsystem: hinge -> (body towards the hull, body behind)
@@ -17,9 +21,9 @@ PAPER |= {hinge: pair for hinge, pair in zip(range(46, 58), zip(range(34, 46), W
 
 
 @pytest.fixture(scope="module")
-def system_at_zero(system, moved):
-    """The motion record with every coordinate at zero."""
-    return moved(system.tree, rest_state(system.tree))
+def origins(system, moved):
+    """Origin of each row with every coordinate at zero."""
+    return columns(moved(system.tree, rest_lanes(system.tree)), ORIGIN, 3)
 
 
 @pytest.mark.literature
@@ -34,10 +38,12 @@ def test_bodies_and_hinges_are_those_of_the_paper(table):
 
 
 @pytest.mark.literature
-def test_vehicle_has_46_degrees_of_freedom(system):
+def test_vehicle_has_46_degrees_of_freedom(table, system):
     """Six of the hull and one of each of the 40 hinges, of which only the recoil part's is a slide."""
-    assert 6 + len(system.tree.parent) - 1 == 46
-    assert np.count_nonzero(system.tree.kind == SLIDE) == 1
+    assert 6 + np.count_nonzero(system.tree.moves) == 46
+    assert not any(body.hinge.prescribed for body in table[1:])
+    assert [body.name for body in table[1:] if body.hinge.kind == "slide"] == ["recoil_part"]
+    assert {body.hinge.kind for body in table[1:]} == {"revolute", "slide"}
 
 
 @pytest.mark.literature
@@ -48,47 +54,46 @@ def test_free_ends_are_those_of_the_paper(table):
 
 
 @pytest.mark.property
-def test_total_mass_is_the_sum_of_the_file(vehicle, system):
+def test_total_mass_is_the_sum_of_the_file(vehicle, table):
     """Every mass of the vehicle file is in the tree as often as the vehicle has the part."""
     v = vehicle
     single = v.hull.mass + v.turret.mass + v.gun_mount.mass + v.recoil_part.mass + v.powertrain.mass
     side = 6 * (v.swing_arms.mass + v.road_wheels.mass) + v.sprockets.mass + 4 * v.carrier_rollers.mass + v.idlers.mass
-    assert system.tree.mass.sum() == pytest.approx(single + 2 * side, rel=1e-14)
+    assert sum(body.mass for body in table) == pytest.approx(single + 2 * side, rel=1e-14)
 
 
 @pytest.mark.property
-def test_wheels_stand_where_the_file_says(vehicle, rows, system_at_zero):
+def test_wheels_stand_where_the_file_says(vehicle, rows, origins):
     """At zero coordinates each wheel stands at its wheel_x and +-y, its centre one radius above the ground."""
     for side, sign in SIDES.items():
         for station in range(STATIONS):
             expected = vehicle.swing_arms.wheel_x[station], sign * vehicle.road_wheels.y, vehicle.road_wheels.radius
-            assert_allclose(system_at_zero.origin[rows[wheel_name(side, station)]], expected, atol=1e-14)
+            assert_allclose(origins[rows[wheel_name(side, station)]], expected, atol=1e-14)
 
 
 @pytest.mark.property
-def test_right_side_mirrors_the_left(table, system, rows, system_at_zero):
+def test_right_side_mirrors_the_left(table, rows, origins):
     """Each left body has a right one of the same mass, mirrored in place, centre and inertia."""
-    tree, mirror = system.tree, np.array([1.0, -1.0, 1.0])
+    mirror = np.array([1.0, -1.0, 1.0])
     lefts = [body for body in table if body.number in (*range(34, 40), *range(58, 70))]
     assert len(lefts) == 18
-    by_number = {body.number: rows[body.name] for body in table}
-    for body in lefts:
-        left, right = by_number[body.number], by_number[body.number + (6 if body.number < 46 else 12)]
-        assert tree.mass[left] == tree.mass[right]
-        assert_allclose(tree.centre[left] * mirror, tree.centre[right])
-        assert_allclose(system_at_zero.origin[left] * mirror, system_at_zero.origin[right])
+    by_number = {body.number: body for body in table}
+    for left in lefts:
+        right = by_number[left.number + (6 if left.number < 46 else 12)]
+        assert left.mass == right.mass
+        assert_allclose(left.centre * mirror, right.centre)
+        assert_allclose(origins[rows[left.name]] * mirror, origins[rows[right.name]])
         # products with y change sign
-        assert_allclose(tree.inertia[left] * (1, 1, 1, -1, 1, -1), tree.inertia[right])
+        assert_allclose(left.inertia * np.outer(mirror, mirror), right.inertia)
 
 
 @pytest.mark.analytic
-def test_wheels_are_discs(vehicle, system, rows):
+def test_wheels_are_discs(vehicle, table):
     """A road wheel has m r^2 / 2 about its axle and m (3 r^2 + w^2) / 12 across."""
     w = vehicle.road_wheels
-    xx, yy, zz, *products = system.tree.inertia[rows[wheel_name(0, 0)]]
-    assert yy == pytest.approx(w.mass * w.radius**2 / 2)
-    assert xx == zz == pytest.approx(w.mass * (3 * w.radius**2 + w.width**2) / 12)
-    assert products == [0.0, 0.0, 0.0]
+    inertia = next(body.inertia for body in table if body.name == wheel_name(0, 0))
+    across = w.mass * (3 * w.radius**2 + w.width**2) / 12
+    assert_allclose(inertia, np.diag([across, w.mass * w.radius**2 / 2, across]), rtol=1e-15)
 
 
 def _hinge(**changes):
@@ -111,6 +116,21 @@ def _hinge(**changes):
         (_hinge(kind="ball"), ("'ball'", "revolute, slide")),
         (_hinge(parent="moon"), ("'moon'", "known are hull")),
         (_hinge(axis=(0, 0, 0)), ("axis is (0, 0, 0)", "not be zero")),
+        (_hinge(axis=(0, 0)), ("axis is (0, 0)", "3 finite numbers")),
+        (_hinge(axis=(0, 0, float("nan"))), ("axis is", "3 finite numbers")),
+        (_hinge(place=(0.0, float("inf"), 0.0)), ("place is (0.0, inf, 0.0)", "3 finite numbers")),
+        (_hinge(place=(0.0, "far", 0.0)), ("place is", "3 finite numbers")),
+        (lambda body: replace(body, centre=(0.0, 0.0, float("nan"))), ("centre is", "3 finite numbers")),
+        (lambda body: replace(body, mass=float("inf")), ("mass is inf kg", "finite")),
+        (lambda body: replace(body, inertia=np.zeros((3, 3))), ("[0.0, 0.0, 0.0]", "> 0")),
+        (_hinge(kind="locked", prescribed=True), ("locked hinge has no motion to prescribe",)),
+        (_hinge(kind="elastic", prescribed=True), ("elastic hinge has no motion to prescribe",)),
+        (_hinge(stiffness=(1.0, 0, 0, 0, 0, 0)), ("stiffness is for elastic hinges", "revolute hinge")),
+        (_hinge(kind="slide", damping=(0, 0, 0, 0, 0, 1.0)), ("damping is for elastic hinges", "slide hinge")),
+        (_hinge(kind="elastic", stiffness=(1.0, -2.0, 0, 0, 0, 0)), ("stiffness is [1.0, -2.0", "not be negative")),
+        (_hinge(kind="elastic", damping=(0, 0, 0, 0, 0, -3.0)), ("damping is", "-3.0", "not be negative")),
+        (_hinge(kind="elastic", stiffness=(1.0,) * 5), ("stiffness is", "6 finite numbers")),
+        (_hinge(kind="elastic", damping=(float("inf"),) * 6), ("damping is", "6 finite numbers")),
     ],
 )
 def test_impossible_bodies_are_refused(table, change, words):
@@ -121,6 +141,43 @@ def test_impossible_bodies_are_refused(table, change, words):
         build_tree(bodies)
     for word in (*words, f"body 5 ({bodies[1].name})"):
         assert word in str(refused.value)
+    with pytest.raises(ValueError, match=re.escape(str(refused.value))):
+        check_table(bodies)
+
+
+@pytest.mark.property
+def test_hinge_is_named_with_its_number(table):
+    """Refusing a hinge names it by its number, too."""
+    bodies = [*table[:4], replace(table[4], hinge=replace(table[4].hinge, place=(np.nan, 0, 0))), *table[5:]]
+    with pytest.raises(ValueError, match=r"^hinge 8 of body 9 \(powertrain\): place is"):
+        check_table(bodies)
+
+
+@pytest.mark.property
+def test_table_without_bodies_is_refused():
+    """An empty table says that it is empty."""
+    with pytest.raises(ValueError, match="no body.*at least the root"):
+        build_tree([])
+
+
+@pytest.mark.property
+def test_table_must_begin_with_its_root(table):
+    """A table whose first body has a hinge, or that names a later body as parent, is refused."""
+    with pytest.raises(ValueError, match=r"body 5 \(turret\): the first body.*is the root"):
+        check_table(table[1:])
+    hung = replace(table[0], hinge=Hinge(1, "locked", "turret", (0, 0, 0)))
+    with pytest.raises(ValueError, match=r"body 7 \(hull\): the first body.*is the root"):
+        check_table([hung, *table[1:]])
+    with pytest.raises(ValueError, match=r"body 3 \(gun_mount\): parent 'turret' must stand before it; known are hull"):
+        check_table([table[0], table[2], table[1], *table[3:]])
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("gravity", [(0.0, -9.81), (0.0, 0.0, 0.0, -9.81), -9.81, (0.0, 0.0, float("nan"))])
+def test_gravity_of_other_than_three_numbers_is_refused(table, gravity):
+    """Gravity is a vector of three finite numbers, and the refusal says what was given."""
+    with pytest.raises(ValueError, match=re.escape(f"gravity is {np.array(gravity).tolist()}, must be three finite")):
+        build_tree(table, gravity)
 
 
 @pytest.mark.property
@@ -132,10 +189,13 @@ def test_impossible_inertia_of_a_vehicle_file_names_the_body(changed):
 
 
 @pytest.mark.property
-def test_axis_is_made_a_unit_vector(table, system):
+def test_axis_is_made_a_unit_vector(table, system, moved):
     """The length of a hinge's axis in the table does not matter."""
     bodies = [
         replace(body, hinge=replace(body.hinge, axis=tuple(7.0 * x for x in body.hinge.axis))) if body.hinge else body
         for body in table
     ]
-    assert_allclose(build_tree(bodies).axis, system.tree.axis, rtol=1e-15)
+    tree = build_tree(bodies, system.tree.gravity)
+    assert_allclose(tree.body, system.tree.body, rtol=1e-15)
+    axes = columns(moved(tree, rest_lanes(tree)), HINGE_AXIS, 3)[tree.row[1:]]
+    assert_allclose(axes, [body.hinge.axis for body in table[1:]], rtol=0, atol=1e-15)

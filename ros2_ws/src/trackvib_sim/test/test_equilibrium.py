@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from trackvib_sim.rui.kinematics import point_velocity
-from trackvib_sim.rui.loads import new_loads
+from trackvib_sim.rui.cells import columns
+from trackvib_sim.rui.cuts import new_cuts
+from trackvib_sim.rui.kinematics import ORIGIN, ROTATION, VELOCITY
 from trackvib_sim.vehicle.body_tree import STATIONS
 from trackvib_sim.vehicle.equilibrium import NoEquilibrium, rolling_state, static_equilibrium
 from trackvib_sim.vehicle.mr_mounts import mount_deflection, mount_force
@@ -17,38 +18,44 @@ def standing(vehicle, speed=0.0):
     return build_system(vehicle, Operation(speed, 0.0, False), 1e-4)
 
 
-def ground_forces(system, state, road, moved):
-    """The ground's loads on all bodies, with straight brushes."""
-    loads, brushes = new_loads(len(system.tree.mass)), WheelsState(np.zeros(12), np.zeros(12))
-    add_wheels_on_road(system.wheels, brushes, road, moved(system.tree, state.tree), loads, system.dt)
-    return loads, brushes
+@pytest.fixture(scope="module")
+def ground_forces(level_road, moved, added):
+    """A function that returns the ground's loads on all bodies, and the brushes, which were straight before."""
+
+    def evaluate(system, state):
+        cuts, brushes = new_cuts(system.tree), WheelsState(np.zeros(12), np.zeros(12))
+        add_wheels_on_road(system.wheels, brushes, level_road, moved(system.tree, state.tree), cuts, system.dt)
+        return added(cuts), brushes
+
+    return evaluate
 
 
 @pytest.mark.analytic
 @pytest.mark.parametrize("current", [0.7, 1.0, 4.0])
-def test_wheels_carry_the_weight(vehicle, level_road, moved, current):
+def test_wheels_carry_the_weight(vehicle, table, ground_forces, current):
     """At rest the wheels' forces are vertical and add up to the weight, left as right."""
     system = standing(vehicle)
-    loads, _ = ground_forces(system, static_equilibrium(system, current), level_road, moved)
+    loads, _ = ground_forces(system, static_equilibrium(system, current))
     force = loads.force[system.wheels.row]
     # accelerations are below 1e-8 m/s^2, a part in 1e9 of gravity
-    assert force[:, 2].sum() == pytest.approx(system.tree.mass.sum() * 9.81, rel=1e-6)
+    assert force[:, 2].sum() == pytest.approx(sum(body.mass for body in table) * 9.81, rel=1e-6)
     assert_allclose(force[:, :2], 0.0, atol=1e-3)
     assert_allclose(force[:STATIONS], force[STATIONS:], rtol=1e-6, atol=1e-3)
 
 
 @pytest.mark.analytic
-def test_wheels_balance_the_centre_of_mass(vehicle, system, level_road, moved):
+def test_wheels_balance_the_centre_of_mass(table, system, ground_forces, moved):
     """At rest the wheels' forces have the moment of the weight about the global axes."""
     state = static_equilibrium(system, 1.0)
-    loads, _ = ground_forces(system, state, level_road, moved)
+    loads, _ = ground_forces(system, state)
     motion = moved(system.tree, state.tree)
-    turn = motion.rotation.reshape(-1, 3, 3)
-    centre = motion.origin + np.einsum("nij,nj->ni", turn, system.tree.centre + motion.offset)
-    weight = system.tree.mass[:, None] * system.tree.gravity
-    moment = np.cross(centre, weight) + loads.moment + np.cross(motion.origin, loads.force)
+    origin, turn = columns(motion, ORIGIN, 3), columns(motion, ROTATION, 9).reshape(-1, 3, 3)
+    row = system.tree.row
+    centre = origin[row] + np.einsum("nij,nj->ni", turn[row], [body.centre for body in table])
+    weight = np.array([[body.mass] for body in table]) * system.tree.gravity
+    moment = np.cross(centre, weight).sum(0) + (loads.moment + np.cross(origin, loads.force)).sum(0)
     # of 4e5 N with levers of metres
-    assert_allclose(moment.sum(0), 0.0, atol=1e-3)
+    assert_allclose(moment, 0.0, atol=1e-3)
 
 
 @pytest.mark.property
@@ -68,7 +75,7 @@ def test_standing_vehicle_stays(simulation, level):
     """A standing vehicle with its engine off feels gravity and nothing else, for a second."""
     still = simulation(speed=0.0)
     still.road.add(-20.0, 0.05, *level.heights(-400, 801))
-    before = np.concatenate(still.state.tree)
+    before = np.concatenate([part.ravel() for part in still.state.tree])
     force = []
     for _ in range(1000):
         still.advance(np.ones(2))
@@ -76,20 +83,19 @@ def test_standing_vehicle_stays(simulation, level):
     # 1e-8 m/s^2 of the equilibrium, 1e-12 m of it times 1e6 N/m of a spring on 200 kg
     assert_allclose(np.linalg.norm(force, axis=2), 9.81, atol=1e-6)
     assert_allclose(np.ptp(force, axis=0), 0.0, atol=1e-6)
-    assert_allclose(np.concatenate(still.state.tree), before, atol=1e-7)
+    after = np.concatenate([part.ravel() for part in still.state.tree])
+    assert_allclose(after, before, atol=1e-7)
 
 
 @pytest.mark.property
 @pytest.mark.parametrize("speed", [0.0, 5.0, 20.0])
-def test_vehicle_starts_rolling_without_slip(vehicle, level_road, moved, speed):
+def test_vehicle_starts_rolling_without_slip(vehicle, ground_forces, moved, speed):
     """At the start every wheel moves at the wanted speed and its contact does not slip."""
     system = standing(vehicle, speed)
     state = rolling_state(system, 1.0)
-    loads, brushes = ground_forces(system, state, level_road, moved)
-    motion = moved(system.tree, state.tree)
-    for row in system.wheels.row:
-        velocity = point_velocity(motion, row, tuple(motion.origin[row]))
-        assert_allclose(velocity, (speed, 0.0, 0.0), atol=1e-12)
+    loads, brushes = ground_forces(system, state)
+    velocity = columns(moved(system.tree, state.tree), VELOCITY, 3)[system.wheels.row]
+    assert_allclose(velocity, np.tile((speed, 0.0, 0.0), (12, 1)), atol=1e-12)
     # a brush deflects by dt times the slip, so this is 1e-11 m/s
     assert np.abs(brushes.longitudinal).max() < 1e-15
     # what the ground does then goes through the hub
@@ -100,7 +106,7 @@ def test_vehicle_starts_rolling_without_slip(vehicle, level_road, moved, speed):
 def test_symmetric_hull_rolls_by_its_offset(changed):
     """A hull whose centre is left of the middle leans to the left, one right of it by as much to the right."""
     lean = [
-        static_equilibrium(standing(changed("hull", centre=[-0.1, y, 1.05])), 1.0).tree.attitude[1]
+        static_equilibrium(standing(changed("hull", centre=[-0.1, y, 1.05])), 1.0).tree.attitude[0, 1]
         for y in (0.0, 0.05, -0.05)
     ]
     assert lean[0] == pytest.approx(0.0, abs=1e-12)
@@ -109,10 +115,11 @@ def test_symmetric_hull_rolls_by_its_offset(changed):
 
 
 @pytest.mark.property
-def test_equilibrium_needs_no_rubber_mounts(changed):
+def test_equilibrium_needs_no_rubber_mounts(changed, rows):
     """Without the rubber's stiffness the powertrain rests on hinge and MR mounts, and turns a little further."""
     angle = [
-        static_equilibrium(standing(changed("powertrain", stiffness=k)), 1.0).tree.hinge[4] for k in (0.0, 2e5)
+        static_equilibrium(standing(changed("powertrain", stiffness=k)), 1.0).tree.hinge[rows["powertrain"]]
+        for k in (0.0, 2e5)
     ]
     assert angle[0] != 0.0 and abs(angle[0]) > abs(angle[1]) > 0.0
 
@@ -137,6 +144,6 @@ def test_vehicle_that_cannot_stand_is_refused(changed, section, items):
 def test_new_state_is_all_zero(system):
     """A new state has every coordinate, brush and current at zero and the hull upright."""
     state = new_state(system)
-    assert state.tree.attitude.tolist() == [1.0, 0.0, 0.0, 0.0]
+    assert state.tree.attitude.tolist() == [[1.0, 0.0, 0.0, 0.0]]
     for part in (*state.tree[:1], *state.tree[2:], *state.brushes, *state[2:]):
         assert not part.any()

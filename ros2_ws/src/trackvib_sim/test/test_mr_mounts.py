@@ -6,9 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
-from trackvib_sim.rui.kinematics import point_velocity
-from trackvib_sim.rui.loads import new_loads
-from trackvib_sim.rui.tree import rest_state
+from trackvib_sim.rui.cells import columns
+from trackvib_sim.rui.cuts import new_cuts
+from trackvib_sim.rui.kinematics import ORIGIN, RATE, VELOCITY, rotation
+from trackvib_sim.rui.tree import rest_lanes, to_lanes
 from trackvib_sim.vehicle.mr_mounts import (
     add_mounts,
     mount_characteristics,
@@ -97,7 +98,7 @@ def test_force_law_by_axis(system):
 @given(seed=SEEDS, index=st.integers(0, 1))
 def test_deflection_rate_is_the_rate_of_deflection(system, random_state, moved, seed, index, drifted):
     """l_d is the time derivative of l along any moving state."""
-    state, h = random_state(system.tree, seed), 1e-5
+    state, h = to_lanes(system.tree, random_state(seed)), 1e-5
     _, _, l_d = mount_deflection(system.mounts, moved(system.tree, state), index, 0.0, 0.0)
     before, after = (
         np.array(mount_deflection(system.mounts, moved(system.tree, drifted(state, t)), index, 0.0, 0.0)[1])
@@ -110,11 +111,12 @@ def test_deflection_rate_is_the_rate_of_deflection(system, random_state, moved, 
 @pytest.mark.property
 @FEW
 @given(seed=SEEDS, left=st.floats(0.0, 5.0), right=st.floats(0.0, 5.0))
-def test_force_pair_leaves_total_momentum_alone(system, random_state, moved, seed, left, right):
+def test_force_pair_leaves_total_momentum_alone(system, random_motion, added, seed, left, right):
     """Forces and moments on hull and powertrain cancel about any point, and act on nothing else."""
-    motion, loads = moved(system.tree, random_state(system.tree, seed)), new_loads(len(system.tree.mass))
-    add_mounts(system.mounts, motion, loads, np.array([left, right]), 1e-4, 0.02)
-    moment = loads.moment + np.cross(motion.origin, loads.force)
+    motion, cuts = random_motion(seed), new_cuts(system.tree)
+    add_mounts(system.mounts, motion, cuts, np.array([left, right]), 1e-4, 0.02)
+    loads = added(cuts)
+    moment = loads.moment + np.cross(columns(motion, ORIGIN, 3), loads.force)
     assert np.abs(loads.force).max() > 0.0
     assert_allclose(loads.force.sum(0), 0.0, atol=1e-12 * np.abs(loads.force).max())
     assert_allclose(moment.sum(0), 0.0, atol=1e-12 * np.abs(moment).max())
@@ -126,33 +128,32 @@ def test_force_pair_leaves_total_momentum_alone(system, random_state, moved, see
 @pytest.mark.property
 @FEW
 @given(seed=SEEDS)
-def test_force_pair_does_the_work_of_the_mounts(system, random_state, moved, seed):
+def test_force_pair_does_the_work_of_the_mounts(system, random_motion, added, seed):
     """The pair's power on both bodies is the sum of force times deflection rate of the two mounts."""
     m, currents = system.mounts, np.array([1.0, 2.0])
-    motion, loads = moved(system.tree, random_state(system.tree, seed)), new_loads(len(system.tree.mass))
-    add_mounts(m, motion, loads, currents, 0.0, 0.0)
-    power = sum(
-        np.dot(loads.force[b], point_velocity(motion, b, tuple(motion.origin[b])))
-        + np.dot(loads.moment[b], motion.rate[b])
-        for b in (m.hull, m.powertrain)
-    )
+    motion, cuts = random_motion(seed), new_cuts(system.tree)
+    add_mounts(m, motion, cuts, currents, 0.0, 0.0)
+    loads, velocity, rate = added(cuts), columns(motion, VELOCITY, 3), columns(motion, RATE, 3)
+    power = np.sum(loads.force * velocity) + np.sum(loads.moment * rate)
     expected = 0.0
     for index in range(2):
         _, l, l_d = mount_deflection(m, motion, index, 0.0, 0.0)
         expected += np.dot(mount_force(m, currents[index], l, l_d)[0], l_d)
-    size = np.abs(loads.force).max() * np.abs(motion.velocity).max() + np.abs(loads.moment).max()
+    size = np.abs(loads.force).max() * np.abs(velocity).max() + np.abs(loads.moment).max()
     assert power == pytest.approx(expected, abs=1e-11 * size)
 
 
 @pytest.mark.analytic
-def test_imposed_displacement_acts_across_the_mounts(system, moved):
+def test_imposed_displacement_acts_across_the_mounts(system, moved, added):
     """A displacement d imposed at a rate d' pushes each side as a deflection -d at a rate -d' would."""
-    state = rest_state(system.tree)
+    state = rest_lanes(system.tree)
     motion = moved(system.tree, state)
     k, c = mount_characteristics(system.mounts, 1.0)
-    loads = [new_loads(len(system.tree.mass)) for _ in range(2)]
-    for record, (d, d_rate) in zip(loads, ((0.0, 0.0), (2e-4, 0.05)), strict=True):
-        add_mounts(system.mounts, motion, record, np.array([1.0, 1.0]), d, d_rate)
+    loads = []
+    for d, d_rate in ((0.0, 0.0), (2e-4, 0.05)):
+        cuts = new_cuts(system.tree)
+        add_mounts(system.mounts, motion, cuts, np.array([1.0, 1.0]), d, d_rate)
+        loads.append(added(cuts))
     push = (loads[1].force - loads[0].force)[[system.mounts.powertrain, system.mounts.hull], 2]
     assert_allclose(push, [2.0 * (k * 2e-4 + c * 0.05), -2.0 * (k * 2e-4 + c * 0.05)], rtol=1e-9)
 
@@ -160,15 +161,15 @@ def test_imposed_displacement_acts_across_the_mounts(system, moved):
 @pytest.mark.property
 @FEW
 @given(seed=SEEDS)
-def test_observed_mounts_are_those_that_act(system, random_state, moved, seed):
+def test_observed_mounts_are_those_that_act(system, random_motion, added, seed):
     """What a sample says about the mounts is the force that acts on the powertrain, imposed displacement included."""
     m, currents = system.mounts, np.array([0.9, 3.1])
-    motion, loads = moved(system.tree, random_state(system.tree, seed)), new_loads(len(system.tree.mass))
-    add_mounts(m, motion, loads, currents, 2e-4, 0.05)
+    motion, cuts = random_motion(seed), new_cuts(system.tree)
+    add_mounts(m, motion, cuts, currents, 2e-4, 0.05)
     sample = new_mount_sample()
     observe_mounts(m, motion, currents, 2e-4, 0.05, sample)
-    turn = motion.rotation[m.hull].reshape(3, 3)
-    assert_allclose(turn @ sample.force.sum(0), loads.force[m.powertrain], rtol=1e-12)
+    turn = np.reshape(rotation(motion, m.hull), (3, 3))
+    assert_allclose(turn @ sample.force.sum(0), added(cuts).force[m.powertrain], rtol=1e-12)
     assert_allclose(sample.current, currents)
     for index in range(2):
         assert (sample.stiffness[index], sample.damping[index]) == mount_characteristics(m, currents[index])

@@ -6,8 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from trackvib_sim.rui.kinematics import point_place
-from trackvib_sim.rui.loads import new_loads
-from trackvib_sim.rui.tree import rest_state
+from trackvib_sim.rui.tree import new_rows, rest_lanes
 from trackvib_sim.vehicle.body_tree import SIDES, wheel_name
 from trackvib_sim.vehicle.suspension import add_suspension, shock_force
 from trackvib_sim.vehicle.system import SPRUNG
@@ -18,27 +17,28 @@ RATES = st.floats(-20.0, 20.0)
 
 def torques(system, angle, rate):
     """The torques of all twelve arms at one angle and rate, left first."""
-    state, loads = rest_state(system.tree), new_loads(len(system.tree.mass))
+    state = rest_lanes(system.tree)
     state.hinge[system.suspension.row], state.hinge_rate[system.suspension.row] = angle, rate
-    add_suspension(system.suspension, state, loads)
-    result = loads.torque[system.suspension.row].copy()
-    loads.torque[system.suspension.row] = 0.0
-    assert not loads.torque.any() and not loads.force.any()
+    added = new_rows(system.tree)
+    add_suspension(system.suspension, state, added)
+    result = added[system.suspension.row]
+    added[system.suspension.row] = 0.0
+    assert not added.any()
     return result
 
 
 def wheel_height(system, rows, moved, angle):
     """Height of the first left wheel's centre over the level hull's origin."""
-    state = rest_state(system.tree)
+    state = rest_lanes(system.tree)
     state.hinge[system.suspension.row[0]] = angle
     return point_place(moved(system.tree, state), rows[wheel_name(0, 0)], (0.0, 0.0, 0.0))[2]
 
 
 @pytest.mark.analytic
-def test_bars_carry_the_sprung_mass_at_ride_height(vehicle, system, rows):
+def test_bars_carry_the_sprung_mass_at_ride_height(vehicle, system, table):
     """At angle zero and at rest, the arms' torques over their level reach add up to the sprung weight."""
     reach = vehicle.swing_arms.length * np.cos(np.radians(vehicle.swing_arms.static_angle))
-    sprung = sum(system.tree.mass[rows[name]] for name in SPRUNG)
+    sprung = sum(body.mass for body in table if body.name in SPRUNG)
     assert -torques(system, 0.0, 0.0).sum() / reach == pytest.approx(sprung * 9.81, rel=1e-12)
 
 

@@ -36,7 +36,7 @@ def test_overturning_ends_a_run_with_its_reason(vehicle):
 @pytest.mark.parametrize("speed", [0.0, 5.0, 10.0, 20.0])
 def test_vehicle_is_already_rolling(vehicle, speed):
     """On a level road the speed is kept from the start; the first second brings less than 0.5 % of change."""
-    speeds = [s.state.tree.velocity[0] for s in drive(vehicle, speed, Iso8608Road("A", 1, 1e4, 1.0), 1000)]
+    speeds = [s.state.tree.velocity[0, 0] for s in drive(vehicle, speed, Iso8608Road("A", 1, 1e4, 1.0), 1000)]
     assert np.abs(np.array(speeds) - speed).max() <= max(0.005 * speed, 1e-6)
 
 

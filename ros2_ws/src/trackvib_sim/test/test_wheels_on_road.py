@@ -7,8 +7,10 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.integrate import quad
 from trackvib_sim.road.store import Road
-from trackvib_sim.rui.loads import new_loads
-from trackvib_sim.rui.tree import rest_state
+from trackvib_sim.rui.cells import columns
+from trackvib_sim.rui.cuts import new_cuts
+from trackvib_sim.rui.kinematics import ORIGIN
+from trackvib_sim.rui.tree import rest_lanes
 from trackvib_sim.vehicle.running_gear.wheels_on_road import (
     WheelsState,
     add_wheels_on_road,
@@ -58,13 +60,13 @@ def test_radial_force_is_the_integral_over_the_footprint(system, level_road, dep
 
 
 @pytest.mark.analytic
-def test_force_at_static_depth_is_the_design_load(system, level_road):
+def test_force_at_static_depth_is_the_design_load(system, table, level_road):
     """At static depth a wheel carries a twelfth of the weight.
 
     The rubber is designed as a parabola that presses straight up; round wheels and slanting springs cost up to the
     order of depth / radius, and the sum over springs its own bound.
     """
-    wheels, weight = system.wheels, system.tree.mass.sum() * 9.81
+    wheels, weight = system.wheels, sum(body.mass for body in table) * 9.81
     force, _ = pushed(wheels, level_road, wheels.static_depth)
     bound = wheels.static_depth / wheels.radius + discretisation(wheels, wheels.static_depth)
     assert bound < 0.065
@@ -102,8 +104,8 @@ def test_road_height_does_not_depend_on_the_stretch(shift, first, extra, side):
 
 def _standing(system, moved, height=None):
     """Motion of the vehicle at zero coordinates with its hubs at one height (default: at static depth)."""
-    state = rest_state(system.tree)
-    state.position[2] = -system.wheels.static_depth if height is None else height - system.wheels.radius
+    state = rest_lanes(system.tree)
+    state.position[0, 2] = -system.wheels.static_depth if height is None else height - system.wheels.radius
     return state, moved(system.tree, state)
 
 
@@ -116,10 +118,10 @@ def _brushes(longitudinal=0.0, lateral=0.0):
 def test_no_force_off_the_ground(system, moved, level_road, gap, velocity):
     """A wheel above the ground feels nothing, however it moves, and its brushes are straight again."""
     state, _ = _standing(system, moved, system.wheels.radius + gap)
-    state.velocity[:] = velocity
-    loads, brushes = new_loads(len(system.tree.mass)), _brushes(0.01, -0.01)
-    add_wheels_on_road(system.wheels, brushes, level_road, moved(system.tree, state), loads, 1e-4)
-    assert not loads.force.any() and not loads.moment.any()
+    state.velocity[0] = velocity
+    cuts, brushes = new_cuts(system.tree), _brushes(0.01, -0.01)
+    add_wheels_on_road(system.wheels, brushes, level_road, moved(system.tree, state), cuts, 1e-4)
+    assert not cuts.cells.any()
     assert not brushes.longitudinal.any() and not brushes.lateral.any()
 
 
@@ -144,34 +146,35 @@ def test_ground_pushes_and_never_pulls(system, level_road, depth, velocity):
     brushes=st.tuples(st.floats(-0.1, 0.1), st.floats(-0.1, 0.1)),
     dt=st.sampled_from([1e-5, 1e-4, 1e-3]),
 )
-def test_friction_limit_is_never_exceeded(system, moved, level_road, depth, velocity, spin, brushes, dt):
+def test_friction_limit_is_never_exceeded(system, moved, added, level_road, depth, velocity, spin, brushes, dt):
     """Whatever the slip, the tangential force is at most friction times the radial one."""
     wheels = system.wheels
     state, _ = _standing(system, moved, wheels.radius - depth)
-    state.velocity[:] = velocity
+    state.velocity[0] = velocity
     state.hinge_rate[wheels.row] = spin
-    motion, loads = moved(system.tree, state), new_loads(len(system.tree.mass))
-    add_wheels_on_road(wheels, _brushes(*brushes), level_road, motion, loads, dt)
+    motion, cuts = moved(system.tree, state), new_cuts(system.tree)
+    add_wheels_on_road(wheels, _brushes(*brushes), level_road, motion, cuts, dt)
+    force, origin = added(cuts).force, columns(motion, ORIGIN, 3)
     for row in wheels.row:
-        radial, _ = radial_force(wheels, level_road, 0, tuple(motion.origin[row]), velocity, AHEAD)
-        tangential = np.linalg.norm(loads.force[row] - radial)
+        radial, _ = radial_force(wheels, level_road, 0, tuple(origin[row]), velocity, AHEAD)
+        tangential = np.linalg.norm(force[row] - radial)
         assert tangential <= wheels.friction * np.linalg.norm(radial) * (1.0 + 1e-9) + 1e-9
 
 
 @pytest.mark.analytic
 @pytest.mark.parametrize("speed", [1.0, 10.0, 20.0])
-def test_free_rolling_needs_no_tangential_force(system, moved, level_road, speed):
+def test_free_rolling_needs_no_tangential_force(system, moved, added, level_road, speed):
     """A wheel without radial damping that rolls on its contact radius feels only the vertical force."""
     wheels = system.wheels._replace(damping=0.0)
     state, _ = _standing(system, moved)
     _, mean = pushed(wheels, level_road, wheels.static_depth)
-    state.velocity[0] = speed
+    state.velocity[0, 0] = speed
     state.hinge_rate[wheels.row] = speed / (wheels.radius - mean)
-    loads, brushes = new_loads(len(system.tree.mass)), _brushes()
-    motion = moved(system.tree, state)
+    cuts, brushes, motion = new_cuts(system.tree), _brushes(), moved(system.tree, state)
     for _ in range(100):
-        loads.force[:] = loads.moment[:] = 0.0
-        add_wheels_on_road(wheels, brushes, level_road, motion, loads, 1e-4)
+        cuts.cells[:] = 0.0
+        add_wheels_on_road(wheels, brushes, level_road, motion, cuts, 1e-4)
+    loads = added(cuts)
     vertical = loads.force[wheels.row, 2]
     assert vertical.min() > 0.0
     # slip is the rounding of the speeds, some 1e-15 m/s, times 1e6 N/m and 1e4 N s/m
@@ -181,24 +184,24 @@ def test_free_rolling_needs_no_tangential_force(system, moved, level_road, speed
 
 @pytest.mark.analytic
 @pytest.mark.parametrize("direction", ["longitudinal", "lateral"])
-def test_brush_settles_at_slip_times_relaxation(vehicle, system, moved, level_road, direction):
+def test_brush_settles_at_slip_times_relaxation(vehicle, system, moved, added, level_road, direction):
     """Rolling steadily with a small slip ratio, the force is stiffness * relaxation * ratio, and damping * slip."""
     speed, ratio = 10.0, 1e-3
     wheels = system.wheels._replace(damping=0.0)
     state, _ = _standing(system, moved)
     _, mean = pushed(wheels, level_road, wheels.static_depth)
-    state.velocity[0] = speed
+    state.velocity[0, 0] = speed
     state.hinge_rate[wheels.row] = speed / (wheels.radius - mean)
     if direction == "lateral":
-        state.velocity[1] = speed * ratio
+        state.velocity[0, 1] = speed * ratio
     else:
         state.hinge_rate[wheels.row] *= 1.0 - ratio
     t = vehicle.tyres
     stiffness, damping = getattr(t, f"{direction}_stiffness"), getattr(t, f"{direction}_damping")
-    loads, brushes, motion = new_loads(len(system.tree.mass)), _brushes(), moved(system.tree, state)
+    cuts, brushes, motion = new_cuts(system.tree), _brushes(), moved(system.tree, state)
     for _ in range(20_000):  # 2 s are 80 relaxation lengths
-        loads.force[:] = 0.0
-        add_wheels_on_road(wheels, brushes, level_road, motion, loads, 1e-4)
+        cuts.cells[:] = 0.0
+        add_wheels_on_road(wheels, brushes, level_road, motion, cuts, 1e-4)
     expected = -stiffness * t.relaxation_length * ratio - damping * ratio * speed
     axis = ("longitudinal", "lateral").index(direction)
-    assert_allclose(loads.force[wheels.row, axis], expected, rtol=1e-9)
+    assert_allclose(added(cuts).force[wheels.row, axis], expected, rtol=1e-9)

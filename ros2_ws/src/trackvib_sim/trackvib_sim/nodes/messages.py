@@ -63,12 +63,12 @@ class OdometryMessage:
         self._message.child_frame_id = topics.HULL_FRAME
 
     def fill(self, stamp, state, sample):
-        """Return the message for a `rui.tree.TreeState` and the `simulation.step.Sample` of the same instant."""
+        """Return the message for a `rui.state.TreeState` and the `simulation.step.Sample` of the same instant."""
         m = self._message
         set_stamp(m, stamp)
-        set_vector(m.pose.pose.position, state.position.tolist())
+        set_vector(m.pose.pose.position, state.position[0].tolist())
         o = m.pose.pose.orientation
-        o.w, o.x, o.y, o.z = state.attitude.tolist()
+        o.w, o.x, o.y, o.z = state.attitude[0].tolist()
         set_vector(m.twist.twist.linear, sample.hull_velocity[0].tolist())
         set_vector(m.twist.twist.angular, sample.hull_rate[0].tolist())
         return m

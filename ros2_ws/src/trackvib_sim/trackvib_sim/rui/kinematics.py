@@ -4,110 +4,162 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiled import kernel
+from .cells import get3, get9, new_cells, put3, put9
+from .compiled import inlined, kernel
 from .spatial import (
     add,
     axis_rotation,
     cross,
-    load3,
-    load9,
     multiply,
     quaternion_matrix,
     rotate,
     rotate_back,
     scale,
-    store3,
+    sine_cosine,
     subtract,
-    turn_quaternion,
+    vector,
 )
-from .tree import SLIDE
+from .tree import AXIS, PLACE, SLIDE, new_rows
+
+# quantities of a body's motion, by their place in `Motion.cells`, global axes
+ROTATION = 0  # body axes -> global axes, row by row
+ORIGIN = 9  # m
+LEVER = 12  # from the parent's origin, m
+VELOCITY = 15  # of the origin, m/s
+RATE = 18  # angular velocity, rad/s
+HINGE_AXIS = 21
+DRIFT = 24  # acceleration of the origin while no hinge and not the root accelerates, m/s^2
+ANGULAR_DRIFT = 27  # rad/s^2
+MOTION = 30
 
 
 class Motion(NamedTuple):
-    """Pose and velocity of every body, global axes.
+    """Pose, velocity and velocity-dependent acceleration of every body. A body's origin is its own hinge point."""
 
-    A body's origin is its hinge point *on the parent*: the body-fixed point that passes through it. Under a slide
-    that point wanders along the body, so `offset` says where the body's own origin is seen from it.
-    """
-
-    rotation: np.ndarray  # (n, 9) body axes -> global axes, row by row
-    origin: np.ndarray  # (n, 3) m
-    offset: np.ndarray  # (n, 3) m, body axes; zero except under a slide
-    velocity: np.ndarray  # (n, 3) of the body-fixed point at the origin, m/s
-    rate: np.ndarray  # (n, 3) angular velocity, rad/s
-    axis: np.ndarray  # (n, 3) hinge axis
+    lanes: tuple
+    cells: np.ndarray  # (blocks, MOTION W)
+    sine: np.ndarray  # (rows,) of the hinges' angles
+    cosine: np.ndarray  # (rows,)
 
 
-def new_motion(n):
-    """Return an empty record for n bodies."""
-    return Motion(*(np.zeros((n, columns)) for columns in (9, 3, 3, 3, 3, 3)))
+def new_motion(tree):
+    """Return an empty record."""
+    cells = new_cells(len(tree.parent), MOTION * len(tree.lanes))
+    return Motion(tree.lanes, cells, new_rows(tree), new_rows(tree))
 
 
-@kernel
+@inlined
+def _free_body(tree, state, free, cells):
+    """A body without hinge: from the state, the same in all lanes."""
+    w = len(tree.lanes)
+    q = state.attitude[free]
+    m = quaternion_matrix((q[0], q[1], q[2], q[3]))
+    place, velocity, rate = vector(state.position[free]), vector(state.velocity[free]), vector(state.rate[free])
+    for i in range(tree.width[0]):
+        put9(cells, ROTATION, w, i, m)
+        put3(cells, ORIGIN, w, i, place)
+        put3(cells, VELOCITY, w, i, velocity)
+        put3(cells, RATE, w, i, rate)
+
+
+@inlined
+def _revolute(tree, alone, up, body, sine, cosine, hinge_rate, cells):
+    """Children that turn: A_c = A_p Rot(e, th), Om_c = Om_p + e thd."""
+    w = len(tree.lanes)
+    first, first_sine, first_cosine = hinge_rate[0], sine[0], cosine[0]
+    for i in range(tree.width[0]):
+        s = first_sine if alone else sine[i]
+        c = first_cosine if alone else cosine[i]
+        speed = first if alone else hinge_rate[i]
+        m_p, om_p, al_p = get9(up, ROTATION, w, i), get3(up, RATE, w, i), get3(up, ANGULAR_DRIFT, w, i)
+        axis = get3(body, AXIS, w, i)
+        lever = rotate(m_p, get3(body, PLACE, w, i))
+        e = rotate(m_p, axis)
+        turning = cross(om_p, lever)
+        relative = scale(speed, e)
+        put9(cells, ROTATION, w, i, multiply(m_p, axis_rotation(axis, s, c)))
+        put3(cells, ORIGIN, w, i, add(get3(up, ORIGIN, w, i), lever))
+        put3(cells, LEVER, w, i, lever)
+        put3(cells, VELOCITY, w, i, add(get3(up, VELOCITY, w, i), turning))
+        put3(cells, RATE, w, i, add(om_p, relative))
+        put3(cells, HINGE_AXIS, w, i, e)
+        put3(cells, DRIFT, w, i, add(get3(up, DRIFT, w, i), add(cross(al_p, lever), cross(om_p, turning))))
+        put3(cells, ANGULAR_DRIFT, w, i, add(al_p, cross(om_p, relative)))
+
+
+@inlined
+def _slide(tree, alone, up, body, hinge, hinge_rate, cells):
+    """Children that slide: Q = P + e s, with the Coriolis acceleration 2 Om x e sd."""
+    w = len(tree.lanes)
+    first, first_rate = hinge[0], hinge_rate[0]
+    for i in range(tree.width[0]):
+        travel = first if alone else hinge[i]
+        speed = first_rate if alone else hinge_rate[i]
+        m_p, om_p, al_p = get9(up, ROTATION, w, i), get3(up, RATE, w, i), get3(up, ANGULAR_DRIFT, w, i)
+        axis = get3(body, AXIS, w, i)
+        lever = rotate(m_p, add(get3(body, PLACE, w, i), scale(travel, axis)))
+        e = rotate(m_p, axis)
+        turning = cross(om_p, lever)
+        relative = scale(speed, e)
+        bent = cross(om_p, add(turning, add(relative, relative)))
+        put9(cells, ROTATION, w, i, m_p)
+        put3(cells, ORIGIN, w, i, add(get3(up, ORIGIN, w, i), lever))
+        put3(cells, LEVER, w, i, lever)
+        put3(cells, VELOCITY, w, i, add(add(get3(up, VELOCITY, w, i), turning), relative))
+        put3(cells, RATE, w, i, om_p)
+        put3(cells, HINGE_AXIS, w, i, e)
+        put3(cells, DRIFT, w, i, add(get3(up, DRIFT, w, i), add(cross(al_p, lever), bent)))
+        put3(cells, ANGULAR_DRIFT, w, i, al_p)
+
+
+@inlined
 def update_motion(tree, state, motion):
-    """Fill `motion` from `state` (section "kinematics" of the method: A, Om, P, v from parent to child)."""
-    m = quaternion_matrix((state.attitude[0], state.attitude[1], state.attitude[2], state.attitude[3]))
-    for j in range(9):
-        motion.rotation[0, j] = m[j]
-    for j in range(3):
-        motion.origin[0, j] = state.position[j]
-        motion.velocity[0, j] = state.velocity[j]
-        motion.rate[0, j] = state.rate[j]
-    for b in range(1, tree.parent.size):
-        p = tree.parent[b]
-        m_p = load9(motion.rotation, p)
-        lever = rotate(m_p, add(load3(tree.place, b), load3(motion.offset, p)))
-        om_p = load3(motion.rate, p)
-        e_local = load3(tree.axis, b)
-        e = rotate(m_p, e_local)
-        v = add(load3(motion.velocity, p), cross(om_p, lever))
-        if tree.kind[b] == SLIDE:
-            m_b = m_p
-            om_b = om_p
-            v = add(v, scale(state.hinge_rate[b], e))
-            store3(motion.offset, b, scale(state.hinge[b], e_local))
+    """Fill `motion` from `state` (A, Om, P, v from parent to child)."""
+    w, cells = len(tree.lanes), motion.cells
+    for row in range(state.hinge.size):
+        motion.sine[row], motion.cosine[row] = sine_cosine(state.hinge[row])
+    for j in range(tree.parent.size):
+        p = tree.parent[j]
+        if p < 0:
+            _free_body(tree, state, tree.free[j], cells[j])
+            continue
+        first, end = j * w, (j + 1) * w
+        hinge_rate = state.hinge_rate[first:end]
+        if tree.kind[j] == SLIDE:
+            _slide(tree, tree.alone[j], cells[p], tree.body[j], state.hinge[first:end], hinge_rate, cells[j])
         else:
-            m_b = multiply(m_p, axis_rotation(e_local, state.hinge[b]))
-            om_b = add(om_p, scale(state.hinge_rate[b], e))
-        for j in range(9):
-            motion.rotation[b, j] = m_b[j]
-        store3(motion.origin, b, add(load3(motion.origin, p), lever))
-        store3(motion.velocity, b, v)
-        store3(motion.rate, b, om_b)
-        store3(motion.axis, b, e)
+            sine, cosine = motion.sine[first:end], motion.cosine[first:end]
+            _revolute(tree, tree.alone[j], cells[p], tree.body[j], sine, cosine, hinge_rate, cells[j])
+
+
+@inlined
+def motion_vector(motion, quantity, row):
+    """Return one vector of a body's motion, for example `ORIGIN`."""
+    w = len(motion.lanes)
+    return get3(motion.cells[row // w], quantity, w, row % w)
+
+
+@inlined
+def rotation(motion, row):
+    """Return the matrix that turns a body's axes into global ones."""
+    w = len(motion.lanes)
+    return get9(motion.cells[row // w], ROTATION, w, row % w)
 
 
 @kernel
 def point_place(motion, body, local):
-    """Return the global place of a body-fixed point, given in body axes from the body's own origin [m]."""
-    arm = rotate(load9(motion.rotation, body), add(local, load3(motion.offset, body)))
-    return add(load3(motion.origin, body), arm)
+    """Return the global place of a body-fixed point, given in body axes from the body's origin [m]."""
+    return add(motion_vector(motion, ORIGIN, body), rotate(rotation(motion, body), local))
 
 
 @kernel
 def point_velocity(motion, body, place):
     """Return the velocity of the body-fixed point at a global place [m/s]."""
-    arm = subtract(place, load3(motion.origin, body))
-    return add(load3(motion.velocity, body), cross(load3(motion.rate, body), arm))
+    arm = subtract(place, motion_vector(motion, ORIGIN, body))
+    return add(motion_vector(motion, VELOCITY, body), cross(motion_vector(motion, RATE, body), arm))
 
 
 @kernel
-def body_axes(motion, body, vector):
+def body_axes(motion, body, a):
     """Return a global vector in the axes of a body."""
-    return rotate_back(load9(motion.rotation, body), vector)
-
-
-@kernel
-def integrate(state, root_linear, root_angular, hinge_acceleration, dt):
-    """Advance the state by dt with symplectic Euler: speeds by the accelerations, then places by the new speeds."""
-    for j in range(3):
-        state.velocity[j] += dt * root_linear[j]
-        state.rate[j] += dt * root_angular[j]
-        state.position[j] += dt * state.velocity[j]
-    q = (state.attitude[0], state.attitude[1], state.attitude[2], state.attitude[3])
-    q = turn_quaternion(q, (state.rate[0], state.rate[1], state.rate[2]), dt)
-    for j in range(4):
-        state.attitude[j] = q[j]
-    for b in range(1, state.hinge.size):
-        state.hinge_rate[b] += dt * hinge_acceleration[b]
-        state.hinge[b] += dt * state.hinge_rate[b]
+    return rotate_back(rotation(motion, body), a)

@@ -6,34 +6,36 @@ An attitude is a unit quaternion (w, x, y, z) that turns body axes into global a
 
 import math
 
-from .compiled import kernel
+import numpy as np
+
+from .compiled import exact, inlined
 
 
-@kernel
+@inlined
 def add(a, b):
     """Return a + b."""
     return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
 
 
-@kernel
+@inlined
 def subtract(a, b):
     """Return a - b."""
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
-@kernel
+@inlined
 def scale(factor, a):
     """Return factor * a."""
     return (factor * a[0], factor * a[1], factor * a[2])
 
 
-@kernel
+@inlined
 def dot(a, b):
     """Return the scalar product a . b."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-@kernel
+@inlined
 def cross(a, b):
     """Return the vector product a x b."""
     return (
@@ -43,7 +45,7 @@ def cross(a, b):
     )
 
 
-@kernel
+@inlined
 def rotate(m, a):
     """Return the matrix-vector product m a."""
     return (
@@ -53,7 +55,7 @@ def rotate(m, a):
     )
 
 
-@kernel
+@inlined
 def rotate_back(m, a):
     """Return the product of the transposed matrix with a."""
     return (
@@ -63,7 +65,7 @@ def rotate_back(m, a):
     )
 
 
-@kernel
+@inlined
 def multiply(m, n):
     """Return the matrix product m n."""
     return (
@@ -79,20 +81,45 @@ def multiply(m, n):
     )
 
 
-@kernel
-def axis_rotation(axis, angle):
-    """Return the rotation matrix about a unit axis by an angle [rad] (Rodrigues' formula)."""
+# pi / 2 in three parts, the first two with so few digits that whole multiples of them are exact [fdlibm]
+_QUARTER_TURN = (1.57079632673412561417, 6.07710050630396597660e-11, 2.02226624879595063154e-21)
+_QUARTERS_PER_RADIAN = 0.63661977236758134308
+
+
+@exact
+def sine_cosine(x):
+    """Return the sine and cosine of an angle of up to 1e6 rad, to the last digit but one and without a branch.
+
+    The polynomials on an eighth of a turn are those of [fdlibm] (`k_sin.c`, `k_cos.c`).
+    """
+    quarters = np.floor(x * _QUARTERS_PER_RADIAN + 0.5)
+    r = ((x - quarters * _QUARTER_TURN[0]) - quarters * _QUARTER_TURN[1]) - quarters * _QUARTER_TURN[2]
+    z = r * r
+    s = -2.50507602534068634195e-08 + z * 1.58969099521155010221e-10
+    s = -1.98412698298579493134e-04 + z * (2.75573137070700676789e-06 + z * s)
+    s = r + r * z * (-1.66666666666666324348e-01 + z * (8.33333333332248946124e-03 + z * s))
+    c = 2.08757232129817482790e-09 + z * -1.13596475577881948265e-11
+    c = 2.48015872894767294178e-05 + z * (-2.75573143513906633035e-07 + z * c)
+    c = 1.0 - 0.5 * z + z * z * (4.16666666666666019037e-02 + z * (-1.38888888888741095749e-03 + z * c))
+    quarter = quarters - 4.0 * np.floor(0.25 * quarters)
+    odd = (quarter == 1.0) | (quarter == 3.0)
+    sine, cosine = c if odd else s, s if odd else c
+    return -sine if quarter >= 2.0 else sine, -cosine if (quarter == 1.0) | (quarter == 2.0) else cosine
+
+
+@inlined
+def axis_rotation(axis, s, c):
+    """Return the rotation matrix about a unit axis by an angle of sine s and cosine c (Rodrigues' formula)."""
     x, y, z = axis
-    c, s = math.cos(angle), math.sin(angle)
-    d = 1.0 - c
+    dx, dy, dz = scale(1.0 - c, axis)
     return (
-        c + d * x * x, d * x * y - s * z, d * x * z + s * y,
-        d * x * y + s * z, c + d * y * y, d * y * z - s * x,
-        d * x * z - s * y, d * y * z + s * x, c + d * z * z,
+        c + dx * x, dx * y - s * z, dx * z + s * y,
+        dx * y + s * z, c + dy * y, dy * z - s * x,
+        dx * z - s * y, dy * z + s * x, c + dz * z,
     )  # fmt: skip
 
 
-@kernel
+@inlined
 def quaternion_matrix(q):
     """Return the rotation matrix of a unit quaternion (w, x, y, z)."""
     w, x, y, z = q
@@ -103,7 +130,7 @@ def quaternion_matrix(q):
     )  # fmt: skip
 
 
-@kernel
+@inlined
 def turn_quaternion(q, rate, dt):
     """Return the attitude after turning for dt at a constant global angular velocity [rad/s], normalised."""
     half = 0.5 * dt * math.sqrt(dot(rate, rate))
@@ -120,7 +147,7 @@ def turn_quaternion(q, rate, dt):
     return (nw * norm, nx * norm, ny * norm, nz * norm)
 
 
-@kernel
+@inlined
 def turn_inertia(m, s):
     """Return m S m^T for a symmetric S, as a symmetric matrix."""
     # columns of m S
@@ -143,7 +170,7 @@ def turn_inertia(m, s):
     )
 
 
-@kernel
+@inlined
 def symmetric_product(s, a):
     """Return S a for a symmetric S."""
     return (
@@ -153,13 +180,32 @@ def symmetric_product(s, a):
     )
 
 
-@kernel
+@inlined
+def symmetric_inverse(s):
+    """Return the inverse of a symmetric matrix, by its cofactors."""
+    xx = s[1] * s[2] - s[5] * s[5]
+    xy = s[4] * s[5] - s[3] * s[2]
+    xz = s[3] * s[5] - s[4] * s[1]
+    w = 1.0 / (s[0] * xx + s[3] * xy + s[4] * xz)
+    return (
+        w * xx, w * (s[0] * s[2] - s[4] * s[4]), w * (s[0] * s[1] - s[3] * s[3]),
+        w * xy, w * xz, w * (s[3] * s[4] - s[0] * s[5]),
+    )  # fmt: skip
+
+
+@inlined
+def vector(array):
+    """Return the first three numbers of an array as a vector."""
+    return (array[0], array[1], array[2])
+
+
+@inlined
 def load3(array, row):
     """Return row `row` of an (n, 3) array as a vector."""
     return (array[row, 0], array[row, 1], array[row, 2])
 
 
-@kernel
+@inlined
 def store3(array, row, a):
     """Write a vector to row `row` of an (n, 3) array."""
     array[row, 0] = a[0]
@@ -167,19 +213,9 @@ def store3(array, row, a):
     array[row, 2] = a[2]
 
 
-@kernel
+@inlined
 def add3(array, row, a):
     """Add a vector to row `row` of an (n, 3) array."""
     array[row, 0] += a[0]
     array[row, 1] += a[1]
     array[row, 2] += a[2]
-
-
-@kernel
-def load9(array, row):
-    """Return row `row` of an (n, 9) array as a matrix."""
-    return (
-        array[row, 0], array[row, 1], array[row, 2],
-        array[row, 3], array[row, 4], array[row, 5],
-        array[row, 6], array[row, 7], array[row, 8],
-    )  # fmt: skip

@@ -1,67 +1,53 @@
-"""A tree of rigid bodies and hinges: from a readable table to the arrays that the sweeps work on."""
+"""From the table of bodies to the arrays that the compiled sweeps work on: bodies side by side in lanes.
 
-from dataclasses import dataclass
+Bodies that hang on the same body by hinges of the same kind are independent of each other until their loads meet in
+it, so the sweeps treat up to eight of them at once, each in a lane of its own, and what hangs behind a body stays in
+its lane: the branches of the tree run side by side. A body with branches in several lanes fills all lanes of its block
+(it stands *alone*); what its branches hand on is then summed over the lanes.
+"""
+
 from typing import NamedTuple
 
 import numpy as np
 
+from .cells import new_cells
+from .state import TreeState, free_bodies
+from .table import check_table
+
 REVOLUTE, SLIDE = 0, 1
-KINDS = {"revolute": REVOLUTE, "slide": SLIDE}
+LANES = 8  # doubles in the widest vector register of present processors
+
+# Quantities of a body that never change, by their place in `Tree.body`, body axes: hinge point on the parent [m], hinge
+# axis, M [kg], M r_OC [kg m], inertia about the origin [kg m^2], what its lane counts in the parent's sum, whether its
+# hinge moves freely (1 or 0).
+PLACE, AXIS, MASS, MASS_MOMENT, INERTIA, SHARE, MOBILE = 0, 3, 6, 7, 10, 16, 17
+BODY = 18
 
 
-@dataclass(frozen=True)
-class Hinge:
-    """The hinge that ties a body to its parent.
+class ElasticHinges(NamedTuple):
+    """The hinges without constraint (m of them), in the parent's axes."""
 
-    `place` is the hinge point in the parent's axes, from the parent's origin [m]; `axis` is fixed in parent and child
-    alike; the coordinate (rad, or m for a slide) is that of the child relative to the parent.
-    """
-
-    number: int
-    kind: str
-    parent: str
-    place: tuple
-    axis: tuple
-
-
-@dataclass(frozen=True)
-class Body:
-    """A rigid body. Its origin is its hinge point (the root's is free to choose).
-
-    `centre` is the centre of mass from the origin [m], `inertia` the (3, 3) matrix about it [kg m^2], in body axes.
-    The root body has no hinge.
-    """
-
-    number: int
-    name: str
-    mass: float
-    centre: tuple
-    inertia: np.ndarray
-    hinge: Hinge | None = None
+    parent: np.ndarray  # (m,) row
+    child: np.ndarray  # (m,) row
+    place: np.ndarray  # (m, 3) m
+    stiffness: np.ndarray  # (m, 6) N/m, N m/rad
+    damping: np.ndarray  # (m, 6) N s/m, N m s/rad
 
 
 class Tree(NamedTuple):
-    """System record of the body tree: what never changes. Row 0 is the root, parents stand before children."""
+    """System record of the body tree: what never changes. Parents' blocks stand before their children's."""
 
-    parent: np.ndarray  # (n,) row of the parent, -1 for the root
-    kind: np.ndarray  # (n,) REVOLUTE or SLIDE
-    axis: np.ndarray  # (n, 3) unit vector
-    place: np.ndarray  # (n, 3) m
-    mass: np.ndarray  # (n,) kg
-    centre: np.ndarray  # (n, 3) m
-    inertia: np.ndarray  # (n, 6) kg m^2: xx, yy, zz, xy, xz, yz
+    lanes: tuple  # 0, 1, ... W - 1
+    width: np.ndarray  # (1,) W, where a loop must not know it
+    parent: np.ndarray  # (blocks,) block of the parents, lane by lane; -1 for a free body
+    free: np.ndarray  # (blocks,) index of a free body in the state, -1 for the others
+    kind: np.ndarray  # (blocks,) REVOLUTE or SLIDE
+    alone: np.ndarray  # (blocks,) whether one body fills all lanes
+    body: np.ndarray  # (blocks, BODY W) constants of the bodies
+    elastic: ElasticHinges
     gravity: np.ndarray  # (3,) m/s^2
-
-
-class TreeState(NamedTuple):
-    """State record of the body tree, changed in place. Global axes; rows of the hinges are those of their bodies."""
-
-    position: np.ndarray  # (3,) root origin, m
-    attitude: np.ndarray  # (4,) unit quaternion w, x, y, z
-    velocity: np.ndarray  # (3,) of the root origin, m/s
-    rate: np.ndarray  # (3,) angular velocity of the root, rad/s
-    hinge: np.ndarray  # (n,) rad or m; row 0 unused
-    hinge_rate: np.ndarray  # (n,) rad/s or m/s
+    row: np.ndarray  # (n,) row of each body of the table
+    moves: np.ndarray  # (n,) whether its hinge has a coordinate
 
 
 def build_tree(bodies, gravity=(0.0, 0.0, -9.81)):
@@ -69,75 +55,149 @@ def build_tree(bodies, gravity=(0.0, 0.0, -9.81)):
 
     Parameters
     ----------
-    bodies : sequence of Body
-        Exactly one without hinge (the root), which comes first; every parent stands before its children.
+    bodies : sequence of table.Body
     gravity : sequence of 3 floats
         Global axes, m/s^2.
 
     Raises
     ------
     ValueError
-        Names the body or hinge, the value and what is accepted.
+        The table is not a tree of possible bodies (`table.check_table`).
     """
-    rows = {}
-    for row, body in enumerate(bodies):
-        _check(body, row, rows)
-        rows[body.name] = row
+    check_table(bodies)
+    gravity = np.array(gravity, dtype=float)
+    if gravity.shape != (3,) or not np.all(np.isfinite(gravity)):
+        raise ValueError(f"gravity is {gravity.tolist()}, must be three finite numbers [m/s^2]")
+    packed = _pack(bodies, LANES)
+    # lanes pay where on average at least two bodies share a block; a chain has none to share
+    w = LANES if 2 * len(packed) <= len(bodies) else 1
+    return _fill(bodies, packed if w == LANES else _pack(bodies, 1), w, gravity)
+
+
+def rest_lanes(tree):
+    """Return the state with every coordinate and speed zero, every free body at the origin, in rows."""
+    free = np.count_nonzero(tree.parent < 0)
+    attitude = np.zeros((free, 4))
+    attitude[:, 0] = 1.0
+    still = (np.zeros((free, 3)) for _ in range(2))
+    return TreeState(np.zeros((free, 3)), attitude, *still, new_rows(tree), new_rows(tree))
+
+
+def new_rows(tree):
+    """Return zeros (rows,), for example for hinge torques."""
+    rows = len(tree.parent) * len(tree.lanes)
+    return new_cells(1, rows)[0]
+
+
+def to_lanes(tree, state):
+    """Return a state whose hinges stand in rows, from one in the order of the table."""
+    lanes = rest_lanes(tree)
+    for ours, theirs in zip(lanes[:4], state[:4], strict=True):
+        ours[:] = theirs
+    rows = tree.row[tree.moves]
+    lanes.hinge[rows] = np.asarray(state.hinge)[tree.moves]
+    lanes.hinge_rate[rows] = np.asarray(state.hinge_rate)[tree.moves]
+    return lanes
+
+
+def to_table(tree, state):
+    """Return a copy of a state with its hinges in the order of the table."""
+    return TreeState(*(part.copy() for part in state[:4]), state.hinge[tree.row], state.hinge_rate[tree.row])
+
+
+def _pack(bodies, w):
+    """Return the blocks: (bodies in lanes, None where a lane is empty; block of the parents; kind), parents first."""
     n = len(bodies)
-    tree = Tree(
-        parent=np.full(n, -1),
-        kind=np.zeros(n, dtype=np.int64),
-        axis=np.zeros((n, 3)),
-        place=np.zeros((n, 3)),
-        mass=np.array([float(body.mass) for body in bodies]),
-        centre=np.array([body.centre for body in bodies], dtype=float),
-        inertia=np.array([_six(body.inertia) for body in bodies]),
-        gravity=np.array(gravity, dtype=float),
+    rows = {body.name: row for row, body in enumerate(bodies)}
+    children = [[] for _ in range(n)]
+    size = np.ones(n, dtype=int)
+    free = set(free_bodies(bodies))
+    for row in range(n - 1, 0, -1):
+        if row not in free:
+            parent = rows[bodies[row].hinge.parent]
+            size[parent] += size[row]
+            children[parent].append(row)
+
+    def of_kind(row, kind):
+        """Largest branches first, so that those of about the same size come to stand side by side."""
+        alike = [] if row is None else [c for c in children[row] if _kind(bodies[c]) == kind]
+        return sorted(alike, key=lambda c: (-size[c], c))
+
+    blocks = [([row], -1, REVOLUTE) for row in sorted(free)]
+    for at, (members, _, _) in enumerate(blocks):  # grows while it is gone through
+        for kind in (REVOLUTE, SLIDE):
+            if len(members) == 1:
+                branches = of_kind(members[0], kind)
+                blocks += [(branches[k : k + w], at, kind) for k in range(0, len(branches), w)]
+            else:
+                lanes = [of_kind(row, kind) for row in members]
+                for k in range(max(map(len, lanes))):
+                    blocks.append(([lane[k] if k < len(lane) else None for lane in lanes], at, kind))
+    return blocks
+
+
+def _kind(body):
+    return SLIDE if body.hinge.kind == "slide" else REVOLUTE
+
+
+def _fill(bodies, blocks, w, gravity):
+    n_blocks = len(blocks)
+    cells = new_cells(n_blocks, BODY * w)
+    body = cells.reshape(n_blocks, BODY, w)
+    # An empty lane holds a ghost: a body of mass 1 that is locked and whose share is 0.
+    body[:, [AXIS, MASS, INERTIA, INERTIA + 1, INERTIA + 2]] = 1.0
+    row = np.zeros(len(bodies), dtype=np.int64)
+    alone = np.zeros(n_blocks, dtype=bool)
+    free = np.full(n_blocks, -1)
+    for block, (members, parent, _) in enumerate(blocks):
+        alone[block] = len(members) == 1
+        if parent < 0:
+            free[block] = block  # they stand first, in the order of the table
+        for lane in range(w) if alone[block] else range(len(members)):
+            member = members[0 if alone[block] else lane]
+            if member is not None:
+                # a body that stands alone has its mass in equal parts in all lanes
+                body[block, :, lane] = _constants(bodies[member], 1.0 / w if alone[block] else 1.0)
+                row[member] = block * w + (0 if alone[block] else lane)
+    names = {each.name: at for each, at in zip(bodies, row, strict=True)}
+    return Tree(
+        lanes=tuple(range(w)),
+        width=np.array([w]),
+        parent=np.array([parent for _, parent, _ in blocks]),
+        free=free,
+        kind=np.array([kind for _, _, kind in blocks]),
+        alone=alone,
+        body=cells,
+        elastic=_elastic(bodies, names),
+        gravity=gravity,
+        row=row,
+        moves=np.array([body.hinge is not None and body.hinge.kind in ("revolute", "slide") for body in bodies]),
     )
-    for row, body in enumerate(bodies[1:], start=1):
-        tree.parent[row] = rows[body.hinge.parent]
-        tree.kind[row] = KINDS[body.hinge.kind]
-        tree.axis[row] = np.asarray(body.hinge.axis, dtype=float) / np.linalg.norm(body.hinge.axis)
-        tree.place[row] = body.hinge.place
-    return tree
 
 
-def rest_state(tree):
-    """Return the state with every coordinate and speed zero."""
-    n = len(tree.mass)
-    return TreeState(
-        np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]), np.zeros(3), np.zeros(3), np.zeros(n), np.zeros(n)
+def _constants(body, part):
+    values = np.zeros(BODY)
+    c = np.array(body.centre, dtype=float)
+    i = np.asarray(body.inertia, dtype=float) + body.mass * (c @ c * np.eye(3) - np.outer(c, c))
+    values[MASS] = part * body.mass
+    values[MASS_MOMENT : MASS_MOMENT + 3] = part * body.mass * c
+    values[INERTIA : INERTIA + 6] = part * np.array([i[0, 0], i[1, 1], i[2, 2], i[0, 1], i[0, 2], i[1, 2]])
+    values[SHARE] = part
+    hinge = body.hinge
+    if hinge is not None:
+        values[PLACE : PLACE + 3] = hinge.place
+        movable = hinge.kind in ("revolute", "slide")
+        values[AXIS : AXIS + 3] = hinge.axis / np.linalg.norm(hinge.axis) if movable else (0.0, 0.0, 1.0)
+        values[MOBILE] = float(movable and not hinge.prescribed)
+    return values
+
+
+def _elastic(bodies, rows):
+    hinges = [(body.name, body.hinge) for body in bodies if body.hinge is not None and body.hinge.kind == "elastic"]
+    return ElasticHinges(
+        np.array([rows[hinge.parent] for _, hinge in hinges], dtype=np.int64),
+        np.array([rows[name] for name, _ in hinges], dtype=np.int64),
+        np.array([hinge.place for _, hinge in hinges], dtype=float).reshape(-1, 3),
+        np.array([hinge.stiffness for _, hinge in hinges], dtype=float).reshape(-1, 6),
+        np.array([hinge.damping for _, hinge in hinges], dtype=float).reshape(-1, 6),
     )
-
-
-def _six(inertia):
-    m = np.asarray(inertia, dtype=float)
-    return m[0, 0], m[1, 1], m[2, 2], m[0, 1], m[0, 2], m[1, 2]
-
-
-def _check(body, row, rows):
-    name = f"body {body.number} ({body.name})"
-    if body.name in rows:
-        raise ValueError(f"{name}: the name is taken already, names must differ")
-    if not (np.isfinite(body.mass) and body.mass > 0.0):
-        raise ValueError(f"{name}: mass is {body.mass} kg, must be finite and > 0")
-    inertia = np.asarray(body.inertia, dtype=float)
-    if inertia.shape != (3, 3) or not np.allclose(inertia, inertia.T):
-        raise ValueError(f"{name}: inertia must be a symmetric 3 x 3 matrix, is {inertia.tolist()}")
-    principal = np.linalg.eigvalsh(inertia)
-    if not (principal[0] > 0.0 and principal[2] <= (principal[0] + principal[1]) * (1.0 + 1e-9)):
-        raise ValueError(
-            f"{name}: principal moments of inertia are {principal.tolist()} kg m^2, must be > 0 and none larger than "
-            "the sum of the other two"
-        )
-    if (body.hinge is None) != (row == 0):
-        raise ValueError(f"{name}: the first body, and only that one, is the root and has no hinge")
-    if body.hinge is not None:
-        hinge = body.hinge
-        where = f"hinge {hinge.number} of {name}"
-        if hinge.kind not in KINDS:
-            raise ValueError(f"{where}: kind is {hinge.kind!r}, must be one of {', '.join(KINDS)}")
-        if hinge.parent not in rows:
-            raise ValueError(f"{where}: parent {hinge.parent!r} must stand before it; known are {', '.join(rows)}")
-        if not np.linalg.norm(hinge.axis) > 0.0:
-            raise ValueError(f"{where}: axis is {tuple(hinge.axis)}, must not be zero")

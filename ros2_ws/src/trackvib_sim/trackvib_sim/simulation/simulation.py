@@ -61,7 +61,7 @@ class Simulation:
     @property
     def distance(self):
         """Distance of the hull's origin along the road [m]."""
-        return float(self.state.tree.position[0])
+        return float(self.state.tree.position[0, 0])
 
     def road_is_enough(self):
         """Return whether the next period can be done with the road at hand."""

@@ -5,10 +5,19 @@ from typing import NamedTuple
 import numpy as np
 
 from ..rui.compiled import kernel
-from ..rui.kinematics import body_axes, integrate, point_place, update_motion
-from ..rui.loads import clear_loads
-from ..rui.riccati import point_acceleration, solve_accelerations
-from ..rui.spatial import add3, load3, store3, subtract
+from ..rui.cuts import open_cuts
+from ..rui.integrator import integrate
+from ..rui.kinematics import (
+    RATE,
+    VELOCITY,
+    body_axes,
+    motion_vector,
+    point_place,
+    rotation,
+    update_motion,
+)
+from ..rui.riccati import point_specific_force, solve_accelerations
+from ..rui.spatial import load3, store3
 from ..vehicle.coil import drive_coils
 from ..vehicle.driver import add_driver
 from ..vehicle.engine import add_engine, imposed_displacement
@@ -50,31 +59,31 @@ def new_sample(sensors):
 @kernel
 def accelerations(system, state, road, work):
     """From the state, all forces and from them, by the two sweeps, all accelerations."""
-    tree, motion, loads = system.tree, work.motion, work.loads
+    tree, motion, cuts = system.tree, work.motion, work.cuts
+    work.torques[:] = 0.0
+    add_hinge_springs(system.springs, state.tree, work.torques)
+    add_suspension(system.suspension, state.tree, work.torques)
     update_motion(tree, state.tree, motion)
-    clear_loads(loads)
-    add_hinge_springs(system.springs, state.tree, loads)
-    add_suspension(system.suspension, state.tree, loads)
-    add_wheels_on_road(system.wheels, state.brushes, road, motion, loads, system.dt)
+    open_cuts(tree, motion, work.torques, cuts)
+    add_wheels_on_road(system.wheels, state.brushes, road, motion, cuts, system.dt)
     displacement, displacement_rate = imposed_displacement(system.engine, state.crank_angle[0])
-    add_mounts(system.mounts, motion, loads, state.currents, displacement, displacement_rate)
-    add_engine(system.engine, state.crank_angle[0], motion, loads)
-    add_driver(system.driver, motion, loads, state.speed_integral, system.dt)
-    solve_accelerations(tree, state.tree, motion, loads, work.sweep)
+    add_mounts(system.mounts, motion, cuts, state.currents, displacement, displacement_rate)
+    add_engine(system.engine, state.crank_angle[0], motion, cuts)
+    add_driver(system.driver, motion, cuts, state.speed_integral, system.dt)
+    solve_accelerations(tree, motion, cuts, work.response)
 
 
 @kernel
-def measure(system, work, sensors, sample, share):
+def measure(work, sensors, sample, share):
     """Add one step's part (`share`) to the means of a sample."""
-    gravity = (system.tree.gravity[0], system.tree.gravity[1], system.tree.gravity[2])
     for i in range(sensors.body.size):
         body = sensors.body[i]
         place = point_place(work.motion, body, load3(sensors.place, i))
-        force = subtract(point_acceleration(work.motion, work.sweep, body, place), gravity)
-        force = body_axes(work.motion, body, force)
-        rate = body_axes(work.motion, body, load3(work.motion.rate, body))
-        add3(sample.specific_force, i, (share * force[0], share * force[1], share * force[2]))
-        add3(sample.rate, i, (share * rate[0], share * rate[1], share * rate[2]))
+        force = body_axes(work.motion, body, point_specific_force(work.motion, work.response, body, place))
+        rate = body_axes(work.motion, body, motion_vector(work.motion, RATE, body))
+        for k in range(3):
+            sample.specific_force[i, k] += share * force[k]
+            sample.rate[i, k] += share * rate[k]
 
 
 @kernel
@@ -89,15 +98,15 @@ def advance(system, state, road, demanded, steps, work, sensors, sample):
     for _ in range(steps):
         drive_coils(system.coil, demanded, state.currents)
         accelerations(system, state, road, work)
-        measure(system, work, sensors, sample, 1.0 / steps)
-        sweep = work.sweep
-        integrate(state.tree, sweep.linear[0], sweep.angular[0], sweep.hinge_acceleration, dt)
+        measure(work, sensors, sample, 1.0 / steps)
+        integrate(system.tree, state.tree, work.response, dt)
         state.crank_angle[0] = (state.crank_angle[0] + dt * system.engine.speed) % (4.0 * np.pi)
-        total = sweep.linear[0].sum() + sweep.angular[0].sum() + sweep.hinge_acceleration.sum()
+        # the hull's accelerations act on its speed, every other one on that of its hinge
+        total = state.tree.velocity.sum() + state.tree.rate.sum() + state.tree.hinge_rate.sum()
         # not np.isfinite: it compiles to total - total == 0, which reassociation turns into "true"
         if not abs(total) < np.inf:
             return NOT_FINITE
-        if work.motion.rotation[0, 8] < LEAST_UPRIGHT:
+        if rotation(work.motion, system.driver.hull)[8] < LEAST_UPRIGHT:
             return OVERTURNED
         if wheel_below_road(system.wheels, road, work.motion):
             return BELOW_ROAD
@@ -109,7 +118,8 @@ def advance(system, state, road, demanded, steps, work, sensors, sample):
 def observe(system, state, motion, sample):
     """Fill what a sample says about the end of the period."""
     update_motion(system.tree, state.tree, motion)
-    store3(sample.hull_velocity, 0, body_axes(motion, 0, load3(motion.velocity, 0)))
-    store3(sample.hull_rate, 0, body_axes(motion, 0, load3(motion.rate, 0)))
+    hull = system.driver.hull
+    store3(sample.hull_velocity, 0, body_axes(motion, hull, motion_vector(motion, VELOCITY, hull)))
+    store3(sample.hull_rate, 0, body_axes(motion, hull, motion_vector(motion, RATE, hull)))
     displacement, displacement_rate = imposed_displacement(system.engine, state.crank_angle[0])
     observe_mounts(system.mounts, motion, state.currents, displacement, displacement_rate, sample.mounts)

@@ -9,7 +9,7 @@ from math import cos, radians, sin
 
 import numpy as np
 
-from ..rui.tree import Body, Hinge
+from ..rui.table import Body, Hinge
 
 LEFT, RIGHT = 0, 1
 SIDES = {LEFT: 1.0, RIGHT: -1.0}  # sign of y
@@ -27,7 +27,7 @@ WHEEL_HINGE = {LEFT: 46, RIGHT: 52}
 
 
 def body_table(vehicle):
-    """Return the table of bodies (`rui.tree.Body`), parents before children, for `rui.tree.build_tree`."""
+    """Return the table of bodies (`rui.table.Body`), parents before children, for `rui.tree.build_tree`."""
     v = vehicle
     table = [
         Body(7, "hull", v.hull.mass, v.hull.centre, inertia_matrix(v.hull)),

@@ -8,15 +8,17 @@ from typing import NamedTuple
 import numpy as np
 
 from ..rui.compiled import kernel
-from ..rui.kinematics import body_axes
-from ..rui.spatial import add3, load3, scale
+from ..rui.cuts import apply_wrench
+from ..rui.kinematics import HINGE_AXIS, ORIGIN, RATE, VELOCITY, body_axes, motion_vector, rotation
+from ..rui.spatial import scale
 from .body_tree import SIDES, STATIONS, wheel_name
 
 
 class Driver(NamedTuple):
     """Gains and what they act on."""
 
-    wheel: np.ndarray  # (2, 6) rows of the driven wheels in the tree, left first
+    hull: int  # row in the tree
+    wheel: np.ndarray  # (2, 6) rows of the driven wheels, left first
     radius: float  # m, turns force into torque
     half_tread: float  # m
     speed: float  # wanted, m/s
@@ -32,6 +34,7 @@ def driver(vehicle, rows, speed):
     """Return the record for a wanted speed [m/s]."""
     d = vehicle.driver
     return Driver(
+        hull=rows["hull"],
         wheel=np.array([[rows[wheel_name(side, station)] for station in range(STATIONS)] for side in SIDES]),
         radius=vehicle.road_wheels.radius,
         half_tread=vehicle.road_wheels.y,
@@ -46,28 +49,30 @@ def driver(vehicle, rows, speed):
 
 
 @kernel
-def add_driver(driver, motion, loads, integral, dt):
+def add_driver(driver, motion, cuts, integral, dt):
     """Add the wheel torques and advance the integral (1,) [N] of the speed error; it rests while the force is cut."""
-    forward = body_axes(motion, 0, load3(motion.velocity, 0))[0]
+    forward = body_axes(motion, driver.hull, motion_vector(motion, VELOCITY, driver.hull))[0]
     error = driver.speed - forward
     wanted = driver.speed_gain * error + integral[0]
     force = min(max(wanted, -driver.force_limit), driver.force_limit)
     if force == wanted:
         integral[0] += driver.integral_gain * error * dt
-    heading = np.arctan2(motion.rotation[0, 3], motion.rotation[0, 0])
-    wanted_heading = -driver.lane_gain * motion.origin[0, 1]
-    moment = driver.heading_gain * (wanted_heading - heading) - driver.heading_damping * motion.rate[0, 2]
+    turn = rotation(motion, driver.hull)
+    heading = np.arctan2(turn[3], turn[0])
+    wanted_heading = -driver.lane_gain * motion_vector(motion, ORIGIN, driver.hull)[1]
+    turning = motion_vector(motion, RATE, driver.hull)[2]
+    moment = driver.heading_gain * (wanted_heading - heading) - driver.heading_damping * turning
     steering = 0.5 * moment / driver.half_tread
     wheels = driver.wheel.shape[1]
     for i in range(wheels):
         # a moment to the left pulls on the right side
-        drive_wheel(motion, loads, driver.wheel[0, i], driver.radius * (0.5 * force - steering) / wheels)
-        drive_wheel(motion, loads, driver.wheel[1, i], driver.radius * (0.5 * force + steering) / wheels)
+        drive_wheel(driver, motion, cuts, driver.wheel[0, i], driver.radius * (0.5 * force - steering) / wheels)
+        drive_wheel(driver, motion, cuts, driver.wheel[1, i], driver.radius * (0.5 * force + steering) / wheels)
 
 
 @kernel
-def drive_wheel(motion, loads, wheel, torque):
+def drive_wheel(driver, motion, cuts, wheel, torque):
     """Turn a wheel about its axle by a torque [N m] that stands on the hull."""
-    moment = scale(torque, load3(motion.axis, wheel))
-    add3(loads.moment, wheel, moment)
-    add3(loads.moment, 0, scale(-1.0, moment))
+    moment = scale(torque, motion_vector(motion, HINGE_AXIS, wheel))
+    apply_wrench(cuts, wheel, (0.0, 0.0, 0.0), moment)
+    apply_wrench(cuts, driver.hull, (0.0, 0.0, 0.0), scale(-1.0, moment))

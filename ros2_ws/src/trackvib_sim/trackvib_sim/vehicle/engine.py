@@ -10,9 +10,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..rui.compiled import kernel
-from ..rui.kinematics import point_place
-from ..rui.loads import apply_force
-from ..rui.spatial import add3, load3, load9, rotate, scale
+from ..rui.cuts import apply_force, apply_wrench
+from ..rui.kinematics import point_place, rotation
+from ..rui.spatial import load3, rotate, scale
 
 IMPOSED_ORDER = 2.0
 
@@ -48,15 +48,15 @@ def engine(vehicle, rows, speed, imposed_displacement):
 
 
 @kernel
-def add_engine(engine, angle, motion, loads):
+def add_engine(engine, angle, motion, cuts):
     """Add the engine's forces and moments at a crank angle [rad] to the powertrain."""
     body = engine.powertrain
-    turn = load9(motion.rotation, body)
+    turn = rotation(motion, body)
     place = point_place(motion, body, load3(engine.place, 0))
     for i in range(engine.orders.size):
         wave = np.sin(engine.orders[i] * angle + engine.phase[i])
-        apply_force(loads, motion, body, place, rotate(turn, scale(wave, load3(engine.force, i))))
-        add3(loads.moment, body, rotate(turn, scale(wave, load3(engine.moment, i))))
+        apply_force(cuts, motion, body, place, rotate(turn, scale(wave, load3(engine.force, i))))
+        apply_wrench(cuts, body, (0.0, 0.0, 0.0), rotate(turn, scale(wave, load3(engine.moment, i))))
 
 
 @kernel

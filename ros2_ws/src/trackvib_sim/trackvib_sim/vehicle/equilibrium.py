@@ -6,9 +6,10 @@ from scipy.spatial.transform import Rotation
 
 from ..road.store import Road
 from ..rui.compiled import kernel
-from ..rui.kinematics import update_motion
-from ..rui.loads import clear_loads
-from ..rui.riccati import solve_accelerations
+from ..rui.cells import columns
+from ..rui.cuts import open_cuts
+from ..rui.kinematics import ORIGIN, update_motion
+from ..rui.riccati import HINGE, LINEAR, RESPONSE, solve_accelerations
 from .hinge_springs import add_hinge_springs
 from .mr_mounts import add_mounts
 from .running_gear.wheels_on_road import add_wheels_on_road, radial_force
@@ -25,14 +26,15 @@ class NoEquilibrium(ValueError):
 
 @kernel
 def _static_accelerations(system, state, road, work):
-    """Fill `work.sweep` with the accelerations that a standing vehicle would have with its engine off."""
+    """Fill `work.response` with the accelerations that a standing vehicle would have with its engine off."""
+    work.torques[:] = 0.0
+    add_hinge_springs(system.springs, state.tree, work.torques)
+    add_suspension(system.suspension, state.tree, work.torques)
     update_motion(system.tree, state.tree, work.motion)
-    clear_loads(work.loads)
-    add_hinge_springs(system.springs, state.tree, work.loads)
-    add_suspension(system.suspension, state.tree, work.loads)
-    add_mounts(system.mounts, work.motion, work.loads, state.currents, 0.0, 0.0)
-    add_wheels_on_road(system.wheels, state.brushes, road, work.motion, work.loads, 0.0)
-    solve_accelerations(system.tree, state.tree, work.motion, work.loads, work.sweep)
+    open_cuts(system.tree, work.motion, work.torques, work.cuts)
+    add_mounts(system.mounts, work.motion, work.cuts, state.currents, 0.0, 0.0)
+    add_wheels_on_road(system.wheels, state.brushes, road, work.motion, work.cuts, 0.0)
+    solve_accelerations(system.tree, work.motion, work.cuts, work.response)
 
 
 def static_equilibrium(system, current):
@@ -48,30 +50,37 @@ def static_equilibrium(system, current):
     """
     state, work = new_state(system), new_work(system)
     state.currents[:] = current
-    sprung = np.union1d(np.flatnonzero(system.springs.stiffness), system.mounts.powertrain)
+    springs = system.springs
+    sprung = np.union1d(springs.row[springs.stiffness > 0.0], system.mounts.powertrain)
     held = np.concatenate((sprung, system.suspension.row))
 
     def residual(unknowns):
-        state.tree.position[2] = unknowns[0]
-        state.tree.attitude[:] = np.roll(Rotation.from_euler("xy", unknowns[1:3]).as_quat(), 1)  # scalar first
+        state.tree.position[0, 2] = unknowns[0]
+        state.tree.attitude[0] = np.roll(Rotation.from_euler("xy", unknowns[1:3]).as_quat(), 1)  # scalar first
         state.tree.hinge[held] = unknowns[3:]
         _static_accelerations(system, state, LEVEL, work)
-        sweep = work.sweep
-        return np.concatenate(([sweep.linear[0, 2]], sweep.angular[0, :2], sweep.hinge_acceleration[held]))
+        linear, angular, hinges = accelerations(system, work)
+        return np.concatenate((linear[2:], angular[:2], hinges[held]))
 
     guess = np.zeros(3 + len(held))
     guess[0] = -system.wheels.static_depth  # wheels must touch, or the residual does not feel the road
     found = root(residual, guess, method="hybr", options={"xtol": 1e-14, "eps": 1e-8})
     residual(found.x)
-    sweep = work.sweep
     # all of them: what nothing holds must not move either
-    left_over = max(np.abs(part).max() for part in (sweep.linear[0], sweep.angular[0], sweep.hinge_acceleration))
+    left_over = max(np.abs(part).max() for part in accelerations(system, work))
     if not left_over < TOLERANCE:
         raise NoEquilibrium(
             f"no static equilibrium: the best place found still accelerates by {left_over:.3g} m/s^2 (or rad/s^2), "
             f"accepted is < {TOLERANCE:g}; check masses and spring rates of the vehicle file"
         )
     return state
+
+
+def accelerations(system, work):
+    """Return linear and angular acceleration (3,) of the hull and those of the hinges (rows,)."""
+    found = columns(work.response, LINEAR, RESPONSE)
+    hull = found[system.tree.row[0]]
+    return hull[:3] + system.tree.gravity, hull[3:6], found[:, HINGE]
 
 
 def rolling_state(system, current):
@@ -83,9 +92,10 @@ def rolling_state(system, current):
     work = new_work(system)
     update_motion(system.tree, state.tree, work.motion)
     speed = system.driver.speed
-    state.tree.velocity[0] = speed
+    state.tree.velocity[0, 0] = speed
+    origin = columns(work.motion, ORIGIN, 3)
     for side, row in zip(system.wheels.side, system.wheels.row, strict=True):
-        hub = tuple(work.motion.origin[row])
+        hub = tuple(origin[row])
         force, depth = radial_force(system.wheels, LEVEL, side, hub, (speed, 0.0, 0.0), (1.0, 0.0, 0.0))
         along = force[2] / np.linalg.norm(force)  # of the speed, at the contact that the rubber's damping tilts
         state.tree.hinge_rate[row] = speed * along / (system.wheels.radius - depth)

@@ -8,19 +8,20 @@ from ..rui.compiled import kernel
 
 
 class HingeSprings(NamedTuple):
-    """One row a body of the tree, in the units of its hinge."""
+    """Those that are there, in the units of their hinges."""
 
-    stiffness: np.ndarray  # (n,) N m/rad or N/m
-    damping: np.ndarray  # (n,) N m s/rad or N s/m
+    row: np.ndarray  # (m,) row of the child in the tree
+    stiffness: np.ndarray  # (m,) N m/rad or N/m
+    damping: np.ndarray  # (m,) N m s/rad or N s/m
 
 
 def hinge_springs(vehicle, rows):
     """Return the record for the vehicle; `rows` maps body names to rows of the tree."""
-    springs = HingeSprings(np.zeros(len(rows)), np.zeros(len(rows)))
-    for name in ("turret", "gun_mount", "recoil_part", "powertrain"):
-        section = getattr(vehicle, name)
-        springs.stiffness[rows[name]] = section.stiffness
-        springs.damping[rows[name]] = section.damping
+    springs = [
+        (rows[name], section.stiffness, section.damping)
+        for name in ("turret", "gun_mount", "recoil_part", "powertrain")
+        for section in (getattr(vehicle, name),)
+    ]
     bearings = {
         "wheel_": vehicle.road_wheels,
         "sprocket_": vehicle.sprockets,
@@ -28,14 +29,15 @@ def hinge_springs(vehicle, rows):
         "idler_": vehicle.idlers,
     }
     for prefix, section in bearings.items():
-        for name, row in rows.items():
-            if name.startswith(prefix):
-                springs.damping[row] = section.bearing_damping
-    return springs
+        if section.bearing_damping > 0.0:
+            springs += [(row, 0.0, section.bearing_damping) for name, row in rows.items() if name.startswith(prefix)]
+    row, stiffness, damping = zip(*springs, strict=True)
+    return HingeSprings(np.array(row), np.array(stiffness), np.array(damping))
 
 
 @kernel
-def add_hinge_springs(springs, state, loads):
+def add_hinge_springs(springs, state, torques):
     """Add the spring and damper torques to the hinges."""
-    for b in range(1, springs.stiffness.size):
-        loads.torque[b] -= springs.stiffness[b] * state.hinge[b] + springs.damping[b] * state.hinge_rate[b]
+    for k in range(springs.row.size):
+        b = springs.row[k]
+        torques[b] -= springs.stiffness[k] * state.hinge[b] + springs.damping[k] * state.hinge_rate[b]

@@ -10,9 +10,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..rui.compiled import kernel
-from ..rui.kinematics import body_axes, point_place, point_velocity
-from ..rui.loads import apply_force
-from ..rui.spatial import load3, load9, rotate, scale, store3, subtract
+from ..rui.cuts import apply_force
+from ..rui.kinematics import body_axes, point_place, point_velocity, rotation
+from ..rui.spatial import load3, rotate, scale, store3, subtract
 
 KN_PER_MM = 1e6  # N/m
 
@@ -118,14 +118,14 @@ def mount_force(mounts, current, l, l_d):
 
 
 @kernel
-def add_mounts(mounts, motion, loads, currents, imposed, imposed_rate):
+def add_mounts(mounts, motion, cuts, currents, imposed, imposed_rate):
     """Add the mounts' forces to powertrain and hull; `imposed` as in `mount_deflection`."""
     for index in range(2):
         upper, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)
         force, _ = mount_force(mounts, currents[index], l, l_d)
-        force = rotate(load9(motion.rotation, mounts.hull), force)
-        apply_force(loads, motion, mounts.powertrain, upper, force)
-        apply_force(loads, motion, mounts.hull, upper, scale(-1.0, force))
+        force = rotate(rotation(motion, mounts.hull), force)
+        apply_force(cuts, motion, mounts.powertrain, upper, force)
+        apply_force(cuts, motion, mounts.hull, upper, scale(-1.0, force))
 
 
 @kernel

@@ -63,7 +63,7 @@ def shock_force(suspension, speed):
 
 
 @kernel
-def add_suspension(suspension, state, loads):
+def add_suspension(suspension, state, torques):
     """Add the torques of bars, friction, shock absorbers and bump stops to the arms' hinges."""
     s = suspension
     for i in range(s.row.size):
@@ -74,4 +74,4 @@ def add_suspension(suspension, state, loads):
         if angle > s.stop_angle:
             # a stop only pushes
             torque += min(0.0, -s.stop_stiffness * (angle - s.stop_angle) - s.stop_damping * rate)
-        loads.torque[b] += torque
+        torques[b] += torque

@@ -5,10 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..rui.cuts import Cuts, new_cuts
 from ..rui.kinematics import Motion, new_motion
-from ..rui.loads import Loads, new_loads
-from ..rui.riccati import Sweep, new_sweep
-from ..rui.tree import Tree, TreeState, build_tree, rest_state
+from ..rui.riccati import Response, new_response
+from ..rui.state import TreeState
+from ..rui.tree import Tree, build_tree, new_rows, rest_lanes
 from .body_tree import SIDES, STATIONS, body_table
 from .coil import Coil, coil
 from .driver import Driver, driver
@@ -59,25 +60,27 @@ class Work(NamedTuple):
     """Room for the intermediate results of a step."""
 
     motion: Motion
-    loads: Loads
-    sweep: Sweep
+    torques: np.ndarray  # (rows,) of the hinges, N m or N
+    cuts: Cuts
+    response: Response
 
 
 def build_system(vehicle, operation, dt):
     """Return the `System` of a vehicle (`parameters.Vehicle`) in an operation, for physics steps of dt [s]."""
     table = body_table(vehicle)
-    rows = {body.name: row for row, body in enumerate(table)}
     tree = build_tree(table, gravity=(0.0, 0.0, -GRAVITY))
+    rows = {body.name: row for body, row in zip(table, tree.row.tolist(), strict=True)}
+    mass = {body.name: body.mass for body in table}
     return System(
         dt=dt,
         tree=tree,
         springs=hinge_springs(vehicle, rows),
-        suspension=suspension(vehicle, rows, sum(tree.mass[rows[name]] for name in SPRUNG), GRAVITY),
+        suspension=suspension(vehicle, rows, sum(mass[name] for name in SPRUNG), GRAVITY),
         mounts=mr_mounts(vehicle, rows),
         coil=coil(vehicle, dt),
         engine=engine(vehicle, rows, operation.engine_speed, operation.imposed_displacement),
         driver=driver(vehicle, rows, operation.speed),
-        wheels=wheels_on_road(vehicle, rows, tree.mass.sum() * GRAVITY / (len(SIDES) * STATIONS)),
+        wheels=wheels_on_road(vehicle, rows, sum(mass.values()) * GRAVITY / (len(SIDES) * STATIONS)),
     )
 
 
@@ -85,7 +88,7 @@ def new_state(system):
     """Return a state with every coordinate at zero."""
     wheels = len(system.wheels.row)
     return State(
-        tree=rest_state(system.tree),
+        tree=rest_lanes(system.tree),
         brushes=WheelsState(np.zeros(wheels), np.zeros(wheels)),
         currents=np.zeros(2),
         crank_angle=np.zeros(1),
@@ -95,5 +98,5 @@ def new_state(system):
 
 def new_work(system):
     """Return working room for a system."""
-    n = len(system.tree.mass)
-    return Work(new_motion(n), new_loads(n), new_sweep(n))
+    tree = system.tree
+    return Work(new_motion(tree), new_rows(tree), new_cuts(tree), new_response(tree))

@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ...rui.compiled import kernel
-from ...rui.kinematics import point_velocity
-from ...rui.loads import apply_force
-from ...rui.spatial import add, cross, dot, load3, scale
+from ...rui.cuts import apply_force
+from ...rui.kinematics import HINGE_AXIS, ORIGIN, VELOCITY, motion_vector, point_velocity
+from ...rui.spatial import add, cross, dot, scale
 from ..body_tree import SIDES, STATIONS, wheel_name
 
 FOOTPRINT = 0.22  # m, half length in which ground is looked for
@@ -103,11 +103,12 @@ def brush(deflection, slip, travel, properties, relaxation, dt):
 
 
 @kernel
-def add_wheels_on_road(wheels, brushes, road, motion, loads, dt):
+def add_wheels_on_road(wheels, brushes, road, motion, cuts, dt):
     """Add the ground's forces to the wheels and advance the brushes by dt."""
     for i in range(wheels.row.size):
         b = wheels.row[i]
-        hub, velocity, axle = load3(motion.origin, b), load3(motion.velocity, b), load3(motion.axis, b)
+        hub, velocity = motion_vector(motion, ORIGIN, b), motion_vector(motion, VELOCITY, b)
+        axle = motion_vector(motion, HINGE_AXIS, b)
         # rolling direction in the horizontal plane: axle x up
         norm = 1.0 / np.sqrt(axle[0] * axle[0] + axle[1] * axle[1])
         forward = (axle[1] * norm, -axle[0] * norm, 0.0)
@@ -132,14 +133,14 @@ def add_wheels_on_road(wheels, brushes, road, motion, loads, dt):
             cut = limit / tangential
             f_x, f_y, q_x, q_y = cut * f_x, cut * f_y, cut * q_x, cut * q_y
         brushes.longitudinal[i], brushes.lateral[i] = q_x, q_y
-        apply_force(loads, motion, b, contact, add(force, add(scale(f_x, ahead), scale(f_y, sideways))))
+        apply_force(cuts, motion, b, contact, add(force, add(scale(f_x, ahead), scale(f_y, sideways))))
 
 
 @kernel
 def wheel_below_road(wheels, road, motion):
     """Return whether the hub of any wheel lies below the road, where the rubber's springs know no way out."""
     for i in range(wheels.row.size):
-        b = wheels.row[i]
-        if motion.origin[b, 2] < road_height(road, wheels.side[i], motion.origin[b, 0]):
+        hub = motion_vector(motion, ORIGIN, wheels.row[i])
+        if hub[2] < road_height(road, wheels.side[i], hub[0]):
             return True
     return False

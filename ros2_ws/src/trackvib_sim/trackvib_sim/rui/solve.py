@@ -1,0 +1,72 @@
+"""Riccati form on the plain records of `state`, for one evaluation at a time; steps in a loop use the kernels."""
+
+import numpy as np
+
+from .cells import columns
+from .compiled import kernel
+from .cuts import apply_wrench, new_cuts, open_cuts, prescribe
+from .elastic import apply_elastic_hinges
+from .kinematics import ANGULAR_DRIFT, DRIFT, RATE, motion_vector, new_motion, update_motion
+from .riccati import ANGULAR, HINGE, LINEAR, hinge_wrench, new_response, solve_accelerations
+from .state import Accelerations
+from .tree import build_tree, new_rows, to_lanes
+
+
+def accelerations(bodies, state, loads, gravity=(0.0, 0.0, -9.81)):
+    """Return the `Accelerations` of a table of bodies by the two sweeps of the Riccati form.
+
+    Parameters
+    ----------
+    bodies : sequence of table.Body
+    state : state.TreeState
+    loads : state.Loads
+    gravity : sequence of 3 floats
+        Global axes, m/s^2.
+
+    Raises
+    ------
+    ValueError
+        The table is not a tree of possible bodies.
+    """
+    tree = build_tree(bodies, gravity)
+    motion, cuts, response = new_motion(tree), new_cuts(tree), new_response(tree)
+    torques = new_rows(tree)
+    torques[tree.row] = loads.torque
+    _evaluate(tree, to_lanes(tree, state), torques, loads, motion, cuts, response)
+    n = len(bodies)
+    hinge = columns(response, HINGE, 1)[tree.row, 0]
+    found = Accelerations(np.zeros((n, 3)), np.zeros((n, 3)), hinge, np.zeros((n, 6)))
+    _collect(tree, motion, cuts, response, found)
+    found.hinge[~tree.moves] = 0.0
+    return found
+
+
+@kernel
+def _evaluate(tree, state, torques, loads, motion, cuts, response):
+    update_motion(tree, state, motion)
+    open_cuts(tree, motion, torques, cuts)
+    apply_elastic_hinges(tree, motion, cuts)
+    for b in range(tree.row.size):
+        row = tree.row[b]
+        force, moment = loads.force[b], loads.moment[b]
+        apply_wrench(cuts, row, (force[0], force[1], force[2]), (moment[0], moment[1], moment[2]))
+        if tree.moves[b]:
+            prescribe(cuts, row, loads.acceleration[b])
+    solve_accelerations(tree, motion, cuts, response)
+
+
+@kernel
+def _collect(tree, motion, cuts, response, found):
+    w = len(tree.lanes)
+    for b in range(tree.row.size):
+        row = tree.row[b]
+        cells, i = response.cells[row // w], row % w
+        drift, angular = motion_vector(motion, DRIFT, row), motion_vector(motion, ANGULAR_DRIFT, row)
+        for k in range(3):
+            found.linear[b, k] = cells[(LINEAR + k) * w + i] + drift[k] + tree.gravity[k]
+            found.angular[b, k] = cells[(ANGULAR + k) * w + i] + angular[k]
+        if tree.parent[row // w] >= 0:
+            force, moment = hinge_wrench(tree, motion, cuts, response, row)
+            for k in range(3):
+                found.wrench[b, k] = force[k]
+                found.wrench[b, 3 + k] = moment[k]

@@ -1,0 +1,67 @@
+"""State, known loads and accelerations of a tree as plain arrays, one row a body in the order of its table.
+
+The reference forms (`overall`, `linear`) work on these; the compiled sweeps keep the same numbers in lanes (`tree`).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+
+class TreeState(NamedTuple):
+    """Coordinates and speeds, global axes; r free bodies (the root, then the body behind each elastic hinge)."""
+
+    position: np.ndarray  # (r, 3) origin, m
+    attitude: np.ndarray  # (r, 4) unit quaternion w, x, y, z
+    velocity: np.ndarray  # (r, 3) of the origin, m/s
+    rate: np.ndarray  # (r, 3) angular velocity, rad/s
+    hinge: np.ndarray  # (n,) rad or m, in the row of the child; those of free bodies and locked hinges are not used
+    hinge_rate: np.ndarray  # (n,) rad/s or m/s
+
+
+class Loads(NamedTuple):
+    """Known loads, global axes. Gravity is not among them."""
+
+    force: np.ndarray  # (n, 3) N
+    moment: np.ndarray  # (n, 3) about the body's origin, N m
+    torque: np.ndarray  # (n,) of the hinge on the child along the axis, N m (N for a slide)
+    acceleration: np.ndarray  # (n,) of prescribed hinges, rad/s^2 or m/s^2
+
+
+class Accelerations(NamedTuple):
+    """What every form of the method has as its result, global axes, gravity not subtracted."""
+
+    linear: np.ndarray  # (n, 3) of the body's origin, m/s^2
+    angular: np.ndarray  # (n, 3) rad/s^2
+    hinge: np.ndarray  # (n,) rad/s^2 or m/s^2
+    wrench: np.ndarray  # (n, 6) q, m of the child on the parent, about the hinge point on the parent, N and N m
+
+
+def free_bodies(bodies):
+    """Return the rows of the bodies that no hinge constrains: the root and those behind elastic hinges."""
+    return [row for row, body in enumerate(bodies) if body.hinge is None or body.hinge.kind == "elastic"]
+
+
+def rest_state(bodies):
+    """Return the `TreeState` of a table with every coordinate and speed zero, elastic hinges undeformed."""
+    n, free = len(bodies), free_bodies(bodies)
+    origin = {}
+    for body in bodies:
+        hinge = body.hinge
+        origin[body.name] = np.zeros(3) if hinge is None else origin[hinge.parent] + np.asarray(hinge.place, float)
+    attitude = np.zeros((len(free), 4))
+    attitude[:, 0] = 1.0
+    return TreeState(
+        np.array([origin[bodies[row].name] for row in free]),
+        attitude,
+        np.zeros((len(free), 3)),
+        np.zeros((len(free), 3)),
+        np.zeros(n),
+        np.zeros(n),
+    )
+
+
+def no_loads(bodies):
+    """Return `Loads` of zero for a table."""
+    n = len(bodies)
+    return Loads(np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n), np.zeros(n))

@@ -1,0 +1,136 @@
+"""The readable table of a tree of rigid bodies and hinges, and what a table must fulfil."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+KINDS = ("revolute", "slide", "locked", "elastic")
+
+
+@dataclass(frozen=True)
+class Hinge:
+    """The hinge that ties a body to its parent.
+
+    Attributes
+    ----------
+    number : int
+    kind : str
+        "revolute" (the paper's column hinge) turns about the axis, "slide" moves along it, "locked" does neither.
+        "elastic" does not constrain the body at all: a bushing with stiffness and damping in all six directions.
+    parent : str
+        Name of the body on the root's side.
+    place : sequence of 3 floats
+        Hinge point in the parent's axes, from the parent's origin [m].
+    axis : sequence of 3 floats
+        Fixed in parent and child alike, of any length but zero; not used by "locked" and "elastic".
+    prescribed : bool
+        The motion of a "revolute" or "slide" is given, its torque or force is a result.
+    stiffness, damping : sequence of 6 floats
+        Of an "elastic" hinge, parent's axes: three displacements [N/m, N s/m], three rotations [N m/rad, N m s/rad].
+
+    The coordinate (rad, or m for a slide) is that of the child relative to the parent.
+    """
+
+    number: int
+    kind: str
+    parent: str
+    place: tuple
+    axis: tuple = (0.0, 0.0, 1.0)
+    prescribed: bool = False
+    stiffness: tuple = (0.0,) * 6
+    damping: tuple = (0.0,) * 6
+
+
+@dataclass(frozen=True)
+class Body:
+    """A rigid body. Its origin is its own hinge point (the root's is free to choose).
+
+    `centre` is the centre of mass from the origin [m], `inertia` the (3, 3) matrix about it [kg m^2], in body axes.
+    The root body has no hinge.
+    """
+
+    number: int
+    name: str
+    mass: float
+    centre: tuple
+    inertia: np.ndarray = field(repr=False)
+    hinge: Hinge | None = None
+
+
+def check_table(bodies):
+    """Refuse a table that no tree can be built from.
+
+    Parameters
+    ----------
+    bodies : sequence of Body
+        Exactly one without hinge (the root), which comes first; every parent stands before its children.
+
+    Raises
+    ------
+    ValueError
+        Names the body or hinge, the value and what is accepted.
+    """
+    if not bodies:
+        raise ValueError("the table has no body, must have at least the root")
+    names = {}
+    for row, body in enumerate(bodies):
+        _check_body(body, names)
+        if (body.hinge is None) != (row == 0):
+            raise ValueError(f"{_name(body)}: the first body, and only that one, is the root and has no hinge")
+        if body.hinge is not None:
+            _check_hinge(body, names)
+        names[body.name] = row
+
+
+def _name(body):
+    return f"body {body.number} ({body.name})"
+
+
+def _check_body(body, names):
+    name = _name(body)
+    if body.name in names:
+        raise ValueError(f"{name}: the name is taken already, names must differ")
+    if not (np.isfinite(body.mass) and body.mass > 0.0):
+        raise ValueError(f"{name}: mass is {body.mass} kg, must be finite and > 0")
+    _check_numbers(f"{name}: centre", body.centre, 3)
+    inertia = np.asarray(body.inertia, dtype=float)
+    if inertia.shape != (3, 3) or not np.allclose(inertia, inertia.T):
+        raise ValueError(f"{name}: inertia must be a symmetric 3 x 3 matrix, is {inertia.tolist()}")
+    principal = np.linalg.eigvalsh(inertia)
+    if not (principal[0] > 0.0 and principal[2] <= (principal[0] + principal[1]) * (1.0 + 1e-9)):
+        raise ValueError(
+            f"{name}: principal moments of inertia are {principal.tolist()} kg m^2, must be > 0 and none larger than "
+            "the sum of the other two"
+        )
+
+
+def _check_hinge(body, names):
+    hinge = body.hinge
+    where = f"hinge {hinge.number} of {_name(body)}"
+    if hinge.kind not in KINDS:
+        raise ValueError(f"{where}: kind is {hinge.kind!r}, must be one of {', '.join(KINDS)}")
+    if hinge.parent not in names:
+        raise ValueError(f"{where}: parent {hinge.parent!r} must stand before it; known are {', '.join(names)}")
+    _check_numbers(f"{where}: place", hinge.place, 3)
+    _check_numbers(f"{where}: axis", hinge.axis, 3)
+    if hinge.kind in ("revolute", "slide"):
+        if not np.linalg.norm(hinge.axis) > 0.0:
+            raise ValueError(f"{where}: axis is {tuple(hinge.axis)}, must not be zero")
+    elif hinge.prescribed:
+        raise ValueError(f"{where}: a {hinge.kind} hinge has no motion to prescribe, only revolute and slide have")
+    for item in ("stiffness", "damping"):
+        values = _check_numbers(f"{where}: {item}", getattr(hinge, item), 6)
+        if np.any(values < 0.0):
+            raise ValueError(f"{where}: {item} is {values.tolist()}, must not be negative")
+        if np.any(values) and hinge.kind != "elastic":
+            raise ValueError(f"{where}: {item} is for elastic hinges; on a {hinge.kind} hinge it is a load")
+
+
+def _check_numbers(what, values, count):
+    try:
+        numbers = np.array(values, dtype=float)
+    except (TypeError, ValueError):
+        numbers = np.array([])
+    if numbers.shape != (count,) or not np.all(np.isfinite(numbers)):
+        raise ValueError(f"{what} is {values!r}, must be {count} finite numbers")
+    return numbers
