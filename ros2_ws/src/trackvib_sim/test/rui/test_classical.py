@@ -42,12 +42,12 @@ def test_planar_vehicle():
     printed = np.array([1.3347723895, 1.6245852422, 13.6182585716])
     at = [smallest_singular_value(overall_matrix(tree, -((2.0 * np.pi * f) ** 2))) for f in printed]
     between = [smallest_singular_value(overall_matrix(tree, -((2.0 * np.pi * f) ** 2))) for f in (1.48, 7.6)]
-    assert max(at) < 1e-9 * min(between) / 1e-3
+    assert max(at) < 1e-6 * min(between)
 
 
 @pytest.mark.property
 def test_illustrative_vehicle():
-    """41 bodies, 25 tips: 190 unknowns, singular at all 22 frequencies."""
+    """41 bodies, 26 tips, 40 hinges: 26 x 6 + 40 unknowns, singular at all 22 frequencies."""
     tree = linearise(settled_vehicle())
     shapes = mode_shapes(tree)
     for value in shapes.omega_squared[24:]:

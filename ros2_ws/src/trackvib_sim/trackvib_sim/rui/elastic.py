@@ -4,34 +4,47 @@ import math
 
 from .compiled import kernel
 from .cuts import apply_wrench
-from .kinematics import ORIGIN, RATE, motion_vector, point_velocity, rotation
-from .spatial import add, cross, multiply, rotate, rotate_back, scale, subtract
+from .kinematics import ORIGIN, RATE, motion_vector, point_place, point_velocity, rotation
+from .spatial import add, cross, load3, multiply, rotate, rotate_back, scale, subtract
 
 
 @kernel
 def apply_elastic_hinges(tree, motion, cuts):
-    """Add the wrenches of all elastic hinges to both bodies.
+    """Add the wrenches of all elastic hinges to both bodies."""
+    hinges = tree.elastic
+    for k in range(hinges.parent.size):
+        parent, child = hinges.parent[k], hinges.child[k]
+        force, moment = elastic_wrench(tree, motion, k)
+        apply_wrench(cuts, child, force, moment)
+        lever = subtract(motion_vector(motion, ORIGIN, child), motion_vector(motion, ORIGIN, parent))
+        moment = add(moment, cross(lever, force))
+        apply_wrench(cuts, parent, scale(-1.0, force), scale(-1.0, moment))
+
+
+@kernel
+def elastic_wrench(tree, motion, k):
+    """Return force [N] and moment about the child's origin [N m] of elastic hinge k on the child, global axes.
 
     In the parent's axes, force = -K displacement - C velocity of the child's origin against the parent's own point at
     the same place, moment likewise with the rotation vector. Both act at the child's origin, so that no couple is left.
     """
     hinges = tree.elastic
-    for k in range(hinges.parent.size):
-        parent, child = hinges.parent[k], hinges.child[k]
-        axes, origin = rotation(motion, parent), motion_vector(motion, ORIGIN, child)
-        parent_origin = motion_vector(motion, ORIGIN, parent)
-        arm = rotate_back(axes, subtract(origin, parent_origin))
-        place = (hinges.place[k, 0], hinges.place[k, 1], hinges.place[k, 2])
-        shift = subtract(arm, place)
-        velocity = subtract(point_velocity(motion, child, origin), point_velocity(motion, parent, origin))
-        rate = subtract(motion_vector(motion, RATE, child), motion_vector(motion, RATE, parent))
-        turned = rotation_vector(_relative(axes, rotation(motion, child)))
-        force = _bush(hinges.stiffness[k, :3], hinges.damping[k, :3], shift, rotate_back(axes, velocity))
-        moment = _bush(hinges.stiffness[k, 3:], hinges.damping[k, 3:], turned, rotate_back(axes, rate))
-        force, moment = rotate(axes, force), rotate(axes, moment)
-        apply_wrench(cuts, child, force, moment)
-        moment = add(moment, cross(subtract(origin, parent_origin), force))
-        apply_wrench(cuts, parent, scale(-1.0, force), scale(-1.0, moment))
+    parent, child = hinges.parent[k], hinges.child[k]
+    axes, origin = rotation(motion, parent), motion_vector(motion, ORIGIN, child)
+    arm = rotate_back(axes, subtract(origin, motion_vector(motion, ORIGIN, parent)))
+    shift = subtract(arm, load3(hinges.place, k))
+    velocity = subtract(point_velocity(motion, child, origin), point_velocity(motion, parent, origin))
+    rate = subtract(motion_vector(motion, RATE, child), motion_vector(motion, RATE, parent))
+    turned = rotation_vector(_relative(axes, rotation(motion, child)))
+    force = _bush(hinges.stiffness[k, :3], hinges.damping[k, :3], shift, rotate_back(axes, velocity))
+    moment = _bush(hinges.stiffness[k, 3:], hinges.damping[k, 3:], turned, rotate_back(axes, rate))
+    return rotate(axes, force), rotate(axes, moment)
+
+
+@kernel
+def elastic_place(tree, motion, k):
+    """Return the global place of the hinge point on the parent [m]."""
+    return point_place(motion, tree.elastic.parent[k], load3(tree.elastic.place, k))
 
 
 @kernel

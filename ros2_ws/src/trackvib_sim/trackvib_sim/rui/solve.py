@@ -5,11 +5,12 @@ import numpy as np
 from .cells import columns
 from .compiled import kernel
 from .cuts import apply_wrench, new_cuts, open_cuts, prescribe
-from .elastic import apply_elastic_hinges
-from .kinematics import ANGULAR_DRIFT, DRIFT, RATE, motion_vector, new_motion, update_motion
+from .elastic import apply_elastic_hinges, elastic_place, elastic_wrench
+from .kinematics import ANGULAR_DRIFT, DRIFT, ORIGIN, motion_vector, new_motion, update_motion
 from .riccati import ANGULAR, HINGE, LINEAR, hinge_wrench, new_response, solve_accelerations
+from .spatial import add, cross, scale, subtract
 from .state import Accelerations
-from .tree import build_tree, new_rows, to_lanes
+from .tree import MOBILE, build_tree, new_rows, to_lanes
 
 
 def accelerations(bodies, state, loads, gravity=(0.0, 0.0, -9.81)):
@@ -43,6 +44,7 @@ def accelerations(bodies, state, loads, gravity=(0.0, 0.0, -9.81)):
 
 @kernel
 def _evaluate(tree, state, torques, loads, motion, cuts, response):
+    w = len(tree.lanes)
     update_motion(tree, state, motion)
     open_cuts(tree, motion, torques, cuts)
     apply_elastic_hinges(tree, motion, cuts)
@@ -50,7 +52,7 @@ def _evaluate(tree, state, torques, loads, motion, cuts, response):
         row = tree.row[b]
         force, moment = loads.force[b], loads.moment[b]
         apply_wrench(cuts, row, (force[0], force[1], force[2]), (moment[0], moment[1], moment[2]))
-        if tree.moves[b]:
+        if tree.moves[b] and tree.body[row // w, MOBILE * w + row % w] == 0.0:
             prescribe(cuts, row, loads.acceleration[b])
     solve_accelerations(tree, motion, cuts, response)
 
@@ -66,7 +68,16 @@ def _collect(tree, motion, cuts, response, found):
             found.linear[b, k] = cells[(LINEAR + k) * w + i] + drift[k] + tree.gravity[k]
             found.angular[b, k] = cells[(ANGULAR + k) * w + i] + angular[k]
         if tree.parent[row // w] >= 0:
-            force, moment = hinge_wrench(tree, motion, cuts, response, row)
-            for k in range(3):
-                found.wrench[b, k] = force[k]
-                found.wrench[b, 3 + k] = moment[k]
+            _store_wrench(found.wrench[b], *hinge_wrench(tree, motion, cuts, response, row))
+    for k in range(tree.elastic.child.size):
+        force, moment = elastic_wrench(tree, motion, k)
+        lever = subtract(motion_vector(motion, ORIGIN, tree.elastic.child[k]), elastic_place(tree, motion, k))
+        on_parent = scale(-1.0, force), scale(-1.0, add(moment, cross(lever, force)))
+        _store_wrench(found.wrench[tree.elastic.number[k]], *on_parent)
+
+
+@kernel
+def _store_wrench(wrench, force, moment):
+    for k in range(3):
+        wrench[k] = force[k]
+        wrench[3 + k] = moment[k]

@@ -1,6 +1,7 @@
 """The readable table of a tree of rigid bodies and hinges, and what a table must fulfil."""
 
 from dataclasses import dataclass, field
+from math import isfinite
 
 import numpy as np
 
@@ -80,6 +81,7 @@ def check_table(bodies):
         if body.hinge is not None:
             _check_hinge(body, names)
         names[body.name] = row
+    _check_inertias(bodies)
 
 
 def _name(body):
@@ -90,17 +92,26 @@ def _check_body(body, names):
     name = _name(body)
     if body.name in names:
         raise ValueError(f"{name}: the name is taken already, names must differ")
-    if not (np.isfinite(body.mass) and body.mass > 0.0):
+    if not (isfinite(body.mass) and body.mass > 0.0):
         raise ValueError(f"{name}: mass is {body.mass} kg, must be finite and > 0")
     _check_numbers(f"{name}: centre", body.centre, 3)
-    inertia = np.asarray(body.inertia, dtype=float)
-    if inertia.shape != (3, 3) or not np.allclose(inertia, inertia.T):
-        raise ValueError(f"{name}: inertia must be a symmetric 3 x 3 matrix, is {inertia.tolist()}")
+    if np.shape(body.inertia) != (3, 3):
+        raise ValueError(f"{name}: inertia must be a symmetric 3 x 3 matrix, is {np.asarray(body.inertia).tolist()}")
+
+
+def _check_inertias(bodies):
+    """All at once, for the sake of large tables."""
+    inertia = np.array([body.inertia for body in bodies], dtype=float)
+    size = np.abs(inertia).max((1, 2), keepdims=True)
+    symmetric = np.all(np.abs(inertia - inertia.transpose(0, 2, 1)) <= 1e-9 * size, axis=(1, 2))  # false for nan
+    for row in np.flatnonzero(~symmetric)[:1]:
+        raise ValueError(f"{_name(bodies[row])}: inertia must be a symmetric 3 x 3 matrix, is {inertia[row].tolist()}")
     principal = np.linalg.eigvalsh(inertia)
-    if not (principal[0] > 0.0 and principal[2] <= (principal[0] + principal[1]) * (1.0 + 1e-9)):
+    possible = (principal[:, 0] > 0.0) & (principal[:, 2] <= (principal[:, 0] + principal[:, 1]) * (1.0 + 1e-9))
+    for row in np.flatnonzero(~possible)[:1]:
         raise ValueError(
-            f"{name}: principal moments of inertia are {principal.tolist()} kg m^2, must be > 0 and none larger than "
-            "the sum of the other two"
+            f"{_name(bodies[row])}: principal moments of inertia are {principal[row].tolist()} kg m^2, must be > 0 and "
+            "none larger than the sum of the other two"
         )
 
 
@@ -114,23 +125,23 @@ def _check_hinge(body, names):
     _check_numbers(f"{where}: place", hinge.place, 3)
     _check_numbers(f"{where}: axis", hinge.axis, 3)
     if hinge.kind in ("revolute", "slide"):
-        if not np.linalg.norm(hinge.axis) > 0.0:
+        if not any(hinge.axis):
             raise ValueError(f"{where}: axis is {tuple(hinge.axis)}, must not be zero")
     elif hinge.prescribed:
         raise ValueError(f"{where}: a {hinge.kind} hinge has no motion to prescribe, only revolute and slide have")
     for item in ("stiffness", "damping"):
         values = _check_numbers(f"{where}: {item}", getattr(hinge, item), 6)
-        if np.any(values < 0.0):
-            raise ValueError(f"{where}: {item} is {values.tolist()}, must not be negative")
-        if np.any(values) and hinge.kind != "elastic":
+        if min(values) < 0.0:
+            raise ValueError(f"{where}: {item} is {values}, must not be negative")
+        if any(values) and hinge.kind != "elastic":
             raise ValueError(f"{where}: {item} is for elastic hinges; on a {hinge.kind} hinge it is a load")
 
 
 def _check_numbers(what, values, count):
     try:
-        numbers = np.array(values, dtype=float)
+        numbers = [float(value) for value in values]
     except (TypeError, ValueError):
-        numbers = np.array([])
-    if numbers.shape != (count,) or not np.all(np.isfinite(numbers)):
+        numbers = []
+    if len(numbers) != count or not all(map(isfinite, numbers)):
         raise ValueError(f"{what} is {values!r}, must be {count} finite numbers")
     return numbers

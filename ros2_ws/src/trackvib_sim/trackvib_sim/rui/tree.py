@@ -29,6 +29,7 @@ class ElasticHinges(NamedTuple):
 
     parent: np.ndarray  # (m,) row
     child: np.ndarray  # (m,) row
+    number: np.ndarray  # (m,) of the child in the table
     place: np.ndarray  # (m, 3) m
     stiffness: np.ndarray  # (m, 6) N/m, N m/rad
     damping: np.ndarray  # (m, 6) N s/m, N m s/rad
@@ -187,16 +188,18 @@ def _constants(body, part):
     if hinge is not None:
         values[PLACE : PLACE + 3] = hinge.place
         movable = hinge.kind in ("revolute", "slide")
-        values[AXIS : AXIS + 3] = hinge.axis / np.linalg.norm(hinge.axis) if movable else (0.0, 0.0, 1.0)
+        values[AXIS : AXIS + 3] = np.array(hinge.axis) / np.linalg.norm(hinge.axis) if movable else (0.0, 0.0, 1.0)
         values[MOBILE] = float(movable and not hinge.prescribed)
     return values
 
 
 def _elastic(bodies, rows):
-    hinges = [(body.name, body.hinge) for body in bodies if body.hinge is not None and body.hinge.kind == "elastic"]
+    numbers = [number for number in free_bodies(bodies) if bodies[number].hinge is not None]
+    hinges = [(bodies[number].name, bodies[number].hinge) for number in numbers]
     return ElasticHinges(
         np.array([rows[hinge.parent] for _, hinge in hinges], dtype=np.int64),
         np.array([rows[name] for name, _ in hinges], dtype=np.int64),
+        np.array(numbers, dtype=np.int64),
         np.array([hinge.place for _, hinge in hinges], dtype=float).reshape(-1, 3),
         np.array([hinge.stiffness for _, hinge in hinges], dtype=float).reshape(-1, 6),
         np.array([hinge.damping for _, hinge in hinges], dtype=float).reshape(-1, 6),
