@@ -35,8 +35,8 @@ INERTIA = np.diag([0.02, 0.05, 0.06])
 AXES = ((0, 1, 0), (0, 0, 1), (1, 0, 0))
 TOPOLOGIES = {
     "chain": lambda row: row - 1,
-    "branched, 3 on each": lambda row: (row - 1) // 3,
-    "brush of chains of 6": lambda row: 0 if (row - 1) % 6 == 0 else row - 1,
+    "3 branches on each": lambda row: (row - 1) // 3,
+    "brush of 6-chains": lambda row: 0 if (row - 1) % 6 == 0 else row - 1,
 }
 
 
@@ -130,7 +130,7 @@ def main():
     picture = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parents[1] / "docs" / "scaling.png"
     out, random = Console(), np.random.default_rng(1)
     table = Table(title=f"one evaluation, one core of {machine()}")
-    for column in ("tree", "dof", "time, us", "ns a dof", "memory, MB", "bytes a dof", "MuJoCo / ours", "error"):
+    for column in ("tree", "dof", "us", "ns/dof", "MB", "B/dof", "MuJoCo / ours", "error"):
         table.add_column(column, justify="left" if column == "tree" else "right")
     results = {name: [] for name in TOPOLOGIES}
     cases = [(name, dof) for name in TOPOLOGIES for dof in SIZES]
@@ -139,7 +139,7 @@ def main():
         time, size, peer, error = measure(TOPOLOGIES[name], dof, name == "chain", with_peer, random)
         results[name].append((dof, time, size, peer))
         table.add_row(
-            name, f"{dof}", f"{1e6 * time:.2f}", f"{1e9 * time / dof:.1f}", f"{size / 1e6:.3g}", f"{size / dof:.0f}",
+            name, f"{dof}", f"{1e6 * time:.4g}", f"{1e9 * time / dof:.1f}", f"{size / 1e6:.3f}", f"{size / dof:.0f}",
             f"{peer / time:.1f}" if peer else "", "" if error is None else f"{error:.0e}",
         )  # fmt: skip
     out.print(table)

@@ -18,8 +18,6 @@ def main():
     # background of a script would otherwise ignore Ctrl-C.
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, lambda *_: _interrupt())
-
-
     sys.stdout.reconfigure(errors="replace")  # a terminal without the signs for square and box still gets the numbers
 
 
@@ -68,6 +66,24 @@ def run(road_class, speed, duration, law, seed, out):
     except KeyboardInterrupt:
         click.echo("interrupted", err=True)
         sys.exit(130)
+
+
+@main.command()
+@click.option("--current", type=FiniteRange(0.0, 10.0), default=1.0, show_default=True,
+              help="Coil current of both mounts in A.")
+@click.option("--highest", type=FiniteRange(0.1, 1000.0), default=100.0, show_default=True,
+              help="Highest frequency of the table in Hz.")
+@click.option("--out", type=click.Path(dir_okay=False), default="modes.png", show_default=True,
+              help="Picture of the lowest oscillations.")
+def modes(current, highest, out):
+    """Print the standing vehicle's natural frequencies and damping, and draw its modes."""
+    from .vehicle_modes import perform  # imported late, as above
+
+    try:
+        perform(current, highest, out)
+    except (ValueError, OSError) as error:
+        click.echo(f"error: {error}", err=True)
+        sys.exit(1)
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ from .linear_tree import centre_of_mass, move
 from .natural_modes import mode_shapes, natural_values
 
 NEWTON_STEPS = 4
+SPLIT = 1e-6  # of the size of a pole, from where on an imaginary part is more than rounding
 DIRECTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
 
@@ -144,6 +145,10 @@ def _damped(tree, limits):
     companion[count:, :count], companion[count:, count:] = -np.diag(basis.omega_squared), -damping
     poles, vectors = np.linalg.eig(companion)
     size = np.abs(poles)
+    # rounding splits a real double pole into a pair: of that pair's vectors, both real and imaginary part are shapes
+    split = (poles.imag != 0.0) & (np.abs(poles.imag) <= SPLIT * size)
+    vectors[:, split] = np.where(poles.imag[split] > 0.0, vectors[:, split].real, vectors[:, split].imag)
+    poles[split] = poles[split].real
     kept = (size >= limits[0]) & (size <= limits[1]) & (poles.imag >= 0.0)
     poles, vectors = poles[kept], vectors[:count, kept]
     x = np.moveaxis(basis.x @ vectors, 2, 0)[..., None]

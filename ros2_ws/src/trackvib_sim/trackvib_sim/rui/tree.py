@@ -70,8 +70,8 @@ def build_tree(bodies, gravity=(0.0, 0.0, -9.81)):
     if gravity.shape != (3,) or not np.all(np.isfinite(gravity)):
         raise ValueError(f"gravity is {gravity.tolist()}, must be three finite numbers [m/s^2]")
     packed = _pack(bodies, LANES)
-    # lanes pay where on average at least two bodies share a block; a chain has none to share
-    w = LANES if 2 * len(packed) <= len(bodies) else 1
+    # lanes pay, also in memory, where on average at least three bodies share a block; a chain has none to share
+    w = LANES if 3 * len(packed) <= len(bodies) else 1
     return _fill(bodies, packed if w == LANES else _pack(bodies, 1), w, gravity)
 
 
