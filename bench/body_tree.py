@@ -83,7 +83,8 @@ def main():
     bodies = body_table(read_vehicle(default_vehicle_file())[0])
     installed = {name: peer for name, peer in PEERS.items() if importlib.util.find_spec(name)}
     for name in PEERS.keys() - installed.keys():
-        out.print(f"{PEERS[name].name} is not installed here: `./trackvib exec -- pip install {name.removeprefix('py')}`")
+        package = name.removeprefix("py")
+        out.print(f"{PEERS[name].name} is not installed: ./trackvib exec -- python -m pip install {package}")
     engines = [kind(bodies, GRAVITY) for kind in (OurTree, *installed.values())]
     random = np.random.default_rng(1)
     worst = dict.fromkeys((engine.name for engine in engines), 0.0)
@@ -110,7 +111,7 @@ def main():
         table.add_row(*key, f"{micro[key]:.2f}", f"{net[key]:.2f}", f"{net[key] / ours:.1f}", difference)
     out.print(table)
     if max(worst.values()) > AGREE:
-        sys.exit(f"error: the engines differ by {max(worst.values()):.1e} of the largest acceleration, accepted {AGREE}")
+        sys.exit(f"error: engines differ by {max(worst.values()):.1e} of the largest acceleration, accepted {AGREE}")
     print(f"fastest peer / ours = {min(net[key] for key in tasks if key[0] != 'trackvib') / ours:.1f}")
 
 

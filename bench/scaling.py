@@ -19,8 +19,8 @@ from peers import MujocoTree
 from rich.console import Console
 from rich.progress import track
 from rich.table import Table
-from trackvib_sim.rui.compiled import kernel
 from trackvib_sim.rui.cells import columns
+from trackvib_sim.rui.compiled import kernel
 from trackvib_sim.rui.cuts import apply_wrench, new_cuts, open_cuts
 from trackvib_sim.rui.kinematics import new_motion, update_motion
 from trackvib_sim.rui.riccati import HINGE, new_response, solve_accelerations

@@ -24,7 +24,9 @@ def perform(current, highest, picture):
     vehicle, _ = read_vehicle(default_vehicle_file())
     low, high = vehicle.mr_mounts.current_range
     if not low <= current <= high:
-        raise ValueError(f"current is {current:g} A, must be within the valid range of the mounts, {low:g} to {high:g} A")
+        raise ValueError(
+            f"current is {current:g} A, must be within the valid range of the mounts, {low:g} to {high:g} A"
+        )
     system = build_system(vehicle, Operation(0.0, 0.0, False), 1e-4)
     model = linear_vehicle(vehicle, system, current)
     found = [mode for mode in modes(model, highest) if mode.frequency <= highest]

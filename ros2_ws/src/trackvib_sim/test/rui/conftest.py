@@ -36,7 +36,7 @@ def pinocchio():
 
 @pytest.fixture(scope="session", params=[form_a, form_x, accelerations], ids=["A", "X", "Riccati"])
 def form(request):
-    """Form A, Form X and the Riccati form in turn: a function of (bodies, state, loads, gravity) that returns `Accelerations`."""
+    """The forms in turn: a function of (bodies, state, loads, gravity) that returns `Accelerations`."""
     return request.param
 
 

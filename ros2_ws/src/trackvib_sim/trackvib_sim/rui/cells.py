@@ -2,8 +2,8 @@
 
 A block holds W bodies side by side. Quantity k of lane i stands in cell k W + i of the block's row, so that a loop
 over the lanes of one quantity runs over neighbours. A body's *row* is block * W + lane. W is the length of the tuple
-`lanes` that every record carries: as part of the type it is known to the compiler. Loops over lanes, in contrast, run to
-a number that it does not know, because it does not vectorise loops that it knows to be short.
+`lanes` that every record carries: as part of the type it is known to the compiler. Loops over lanes, in contrast, run
+to a number that it does not know, because it does not vectorise loops that it knows to be short.
 """
 
 import numpy as np

@@ -5,8 +5,8 @@ At every cut the internal force f = [q; m] is a linear function of the accelerat
     f = S x + s,        S = [[P, Q], [Q^T, R]] symmetric,
 
 (q, m: what the tip side exerts on the root side). `open_cuts` starts S and s of every body with its own inertia,
-velocity-dependent terms and hinge torque. Springs, dampers, contacts and drives then add their wrenches to s, and the tip-to-root sweep (`riccati`) adds what each branch hands on. So loads hold for one evaluation: the sweep
-uses them up.
+velocity-dependent terms and hinge torque. Springs, dampers, contacts and drives then add their wrenches to s, and the
+tip-to-root sweep (`riccati`) adds what each branch hands on. So loads hold for one evaluation: the sweep uses them up.
 
 x counts from free fall along the present motion: the acceleration that the body would have if neither the root nor any
 hinge accelerated (`kinematics.DRIFT`), and that of gravity, are taken off. Nothing but s depends on velocities then.
@@ -18,7 +18,7 @@ import numpy as np
 
 from .cells import add3, add6, add9, get3, get6, get9, new_cells, put3, put6, put9
 from .compiled import inlined, kernel
-from .kinematics import ANGULAR_DRIFT, DRIFT, ORIGIN, RATE, ROTATION, VELOCITY, motion_vector, point_velocity
+from .kinematics import ANGULAR_DRIFT, DRIFT, ORIGIN, RATE, ROTATION, motion_vector, point_velocity
 from .spatial import add, cross, multiply, rotate, scale, subtract, symmetric_product, turn_inertia
 from .tree import INERTIA, MASS, MASS_MOMENT
 

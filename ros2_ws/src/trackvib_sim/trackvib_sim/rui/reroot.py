@@ -40,7 +40,7 @@ def reroot(bodies, name):
 
 
 def reroot_state(bodies, state, loads, name):
-    """Return `TreeState` and `Loads` of `reroot(bodies, name)` from those of `bodies`, in the order of the new table."""
+    """Return `TreeState` and `Loads` of `reroot(bodies, name)` from those of `bodies`, in the new table's order."""
     again = reroot(bodies, name)
     path, shifts = _path(bodies, name)
     placed = place_bodies(bodies, state)

@@ -34,11 +34,12 @@ def body_table(vehicle):
         _hinged(5, "turret", v.turret, Hinge(6, "revolute", "hull", v.turret.place, (0, 0, 1))),
         _hinged(3, "gun_mount", v.gun_mount, Hinge(4, "revolute", "turret", v.gun_mount.place, (0, -1, 0))),
         _hinged(1, "recoil_part", v.recoil_part, Hinge(2, "slide", "gun_mount", v.recoil_part.place, (1, 0, 0))),
-        _hinged(9, "powertrain", v.powertrain, Hinge(8, "revolute", "hull", v.powertrain.place, (0, 1, 0))),
     ]
+    # The hull's inputs in the paper's order: hinge 10 brings the first one, hinge 8 the last.
     for side in SIDES:
         table += _side(v, side)
-    return table
+    hinge = Hinge(8, "revolute", "hull", v.powertrain.place, (0, 1, 0))
+    return [*table, _hinged(9, "powertrain", v.powertrain, hinge)]
 
 
 def inertia_matrix(solid):
@@ -100,9 +101,7 @@ def _side(v, side):
             (0, 1, 0),
         )
         wheels = v.road_wheels
-        yield Body(
-            WHEEL[side] + station, wheel_name(side, station), wheels.mass, (0, 0, 0), _disc(wheels), joint
-        )
+        yield Body(WHEEL[side] + station, wheel_name(side, station), wheels.mass, (0, 0, 0), _disc(wheels), joint)
 
 
 def _hull_wheels(section, name, first, hinge, sign):

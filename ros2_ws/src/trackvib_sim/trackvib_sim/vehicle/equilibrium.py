@@ -5,8 +5,8 @@ from scipy.optimize import root
 from scipy.spatial.transform import Rotation
 
 from ..road.store import Road
-from ..rui.compiled import kernel
 from ..rui.cells import columns
+from ..rui.compiled import kernel
 from ..rui.cuts import open_cuts
 from ..rui.kinematics import ORIGIN, update_motion
 from ..rui.riccati import HINGE, LINEAR, RESPONSE, solve_accelerations

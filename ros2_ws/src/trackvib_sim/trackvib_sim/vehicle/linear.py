@@ -1,9 +1,9 @@
-"""The standing vehicle as a linear model about its equilibrium: what `trackvib modes` and frequency responses look at."""
+"""The standing vehicle as a linear model about its equilibrium, for modes and frequency responses."""
 
 import numpy as np
 
 from ..rui.cells import columns
-from ..rui.kinematics import ORIGIN, update_motion
+from ..rui.kinematics import ORIGIN, ROTATION, update_motion
 from ..rui.linear_model import GroundSpring, LinearModel, Mount
 from ..rui.state import no_loads
 from ..rui.tree import new_rows, to_table
@@ -66,28 +66,32 @@ def _mounts(system, motion, current):
 
 
 def _ground(system, bodies, motion):
-    """Two springs a wheel: the radial one pushes on the hub and does not turn with the wheel, the brush does."""
+    """Two springs a wheel: the radial ones push on the hub and do not turn with the wheel, the brush does."""
     wheels = system.wheels
     name = {row: body.name for body, row in zip(bodies, system.tree.row.tolist(), strict=True)}
-    origin = columns(motion, ORIGIN, 3)
+    origin, rotation = columns(motion, ORIGIN, 3), columns(motion, ROTATION, 9).reshape(-1, 3, 3)
+    brush = [np.diag([wheels.longitudinal[i], wheels.lateral[i], 0.0]) for i in range(2)]
     for row, side in zip(wheels.row.tolist(), wheels.side, strict=True):
-        force, depth, k, c = _radial(wheels, side, tuple(origin[row]))
-        vertical = np.diag([0.0, 0.0, 1.0])
-        yield GroundSpring(name[row], np.zeros(3), k * vertical, c * vertical, np.array([0.0, 0.0, force]))
-        brush = [np.diag([wheels.longitudinal[i], wheels.lateral[i], 0.0]) for i in range(2)]
-        yield GroundSpring(name[row], np.array([0.0, 0.0, depth - wheels.radius]), *brush)
+        force, depth, stiffness, damping = _radial(wheels, side, tuple(origin[row]))
+        yield GroundSpring(name[row], np.zeros(3), stiffness, damping, np.array([0.0, 0.0, force]))
+        below = np.array([0.0, 0.0, depth - wheels.radius])  # of the hub, global axes
+        yield GroundSpring(name[row], rotation[row].T @ below, *brush)
 
 
 def _radial(wheels, side, hub):
-    """Vertical force [N], depth [m] and the force's slopes with height [N/m] and speed [N s/m], by differences."""
+    """Vertical force [N], depth [m], and by differences the force's slopes (3, 3) with place [N/m] and speed [N s/m].
 
-    def force(height, speed):
+    On level road the force does not depend on where along it the wheel stands, and the oblique springs damp forward
+    motion, too.
+    """
+
+    def force(height, forward, upward):
         place = (hub[0], hub[1], hub[2] + height)
-        found, depth = radial_force(wheels, LEVEL, side, place, (0.0, 0.0, speed), AHEAD)
-        return found[2], depth
+        return radial_force(wheels, LEVEL, side, place, (forward, 0.0, upward), AHEAD)
 
-    now, depth = force(0.0, 0.0)
-    k = (force(-SMALL, 0.0)[0] - force(SMALL, 0.0)[0]) / (2.0 * SMALL)
-    c = (force(0.0, -SMALL)[0] - force(0.0, SMALL)[0]) / (2.0 * SMALL)
-    return now, depth, k, c
-
+    now, depth = force(0.0, 0.0, 0.0)
+    slopes = [
+        (force(*-step)[0][axis] - force(*step)[0][axis]) / (2.0 * SMALL)
+        for step, axis in zip(SMALL * np.eye(3), (2, 0, 2), strict=True)
+    ]
+    return now[2], depth, np.diag([0.0, 0.0, slopes[0]]), np.diag([slopes[1], 0.0, slopes[2]])

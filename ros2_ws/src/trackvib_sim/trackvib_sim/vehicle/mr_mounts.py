@@ -95,9 +95,7 @@ def mount_deflection(mounts, motion, index, imposed, imposed_rate):
     upper = point_place(motion, mounts.powertrain, load3(mounts.upper, index))
     lower = point_place(motion, mounts.hull, load3(mounts.lower, index))
     # l_d = A7^T (v_B - v_26 - Om7 x (r_B - r_26)): the rate against the hull's own point at the same place
-    relative = subtract(
-        point_velocity(motion, mounts.powertrain, upper), point_velocity(motion, mounts.hull, upper)
-    )
+    relative = subtract(point_velocity(motion, mounts.powertrain, upper), point_velocity(motion, mounts.hull, upper))
     x, y, z = body_axes(motion, mounts.hull, subtract(upper, lower))
     v_x, v_y, v_z = body_axes(motion, mounts.hull, relative)
     return upper, (x, y, z - imposed), (v_x, v_y, v_z - imposed_rate)

@@ -123,9 +123,7 @@ def add_wheels_on_road(wheels, brushes, road, motion, cuts, dt):
         contact = add(hub, scale(depth - wheels.radius, up))
         slip = point_velocity(motion, b, contact)
         rolling = abs(dot(velocity, ahead))
-        f_x, q_x = brush(
-            brushes.longitudinal[i], dot(slip, ahead), rolling, wheels.longitudinal, wheels.relaxation, dt
-        )
+        f_x, q_x = brush(brushes.longitudinal[i], dot(slip, ahead), rolling, wheels.longitudinal, wheels.relaxation, dt)
         f_y, q_y = brush(brushes.lateral[i], dot(slip, sideways), rolling, wheels.lateral, wheels.relaxation, dt)
         tangential = np.sqrt(f_x * f_x + f_y * f_y)
         limit = wheels.friction * normal
