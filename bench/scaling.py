@@ -1,5 +1,7 @@
 """Time, memory and accuracy of one evaluation from 10 to 1 000 000 degrees of freedom, chains and branched trees.
 
+"branched" has three bodies on each body, "brush" chains of six links on one body.
+
     ./trackvib exec -- python bench/scaling.py [PICTURE.png]
 
 MuJoCo runs beside it up to 300 degrees of freedom. The accuracy is that of a
@@ -35,8 +37,8 @@ INERTIA = np.diag([0.02, 0.05, 0.06])
 AXES = ((0, 1, 0), (0, 0, 1), (1, 0, 0))
 TOPOLOGIES = {
     "chain": lambda row: row - 1,
-    "3 branches on each": lambda row: (row - 1) // 3,
-    "brush of 6-chains": lambda row: 0 if (row - 1) % 6 == 0 else row - 1,
+    "branched": lambda row: (row - 1) // 3,
+    "brush": lambda row: 0 if (row - 1) % 6 == 0 else row - 1,
 }
 
 
