@@ -24,7 +24,7 @@ from trackvib_sim.rui.kinematics import (
 from trackvib_sim.rui.placement import parent_rows, place_bodies
 from trackvib_sim.rui.riccati import HINGE, LINEAR, new_response
 from trackvib_sim.rui.spatial import sine_cosine, turn_quaternion
-from trackvib_sim.rui.tree import LANES, build_tree, rest_lanes, to_lanes, to_table
+from trackvib_sim.rui.tree import FOOT_SHARE, LANES, SHARE, build_tree, rest_lanes, to_lanes, to_table
 
 SEEDS = st.integers(0, 2**32 - 1)
 FEW = settings(max_examples=20)
@@ -56,7 +56,10 @@ def test_shapes_are_packed_in_every_way(shaped_table):
 @FEW
 @given(seed=SEEDS)
 def test_every_body_has_a_row_below_its_parents(shaped_table, shape, seed):
-    """Rows are all different, and the block of a body's parent stands before its own, in the same lane or alone."""
+    """Rows are all different, and the block of a body's parent stands before its own, in the same lane or alone.
+
+    That block is the one above, or for a second branch in a lane the foot of the branches. What it counts there is all.
+    """
     bodies, _, _ = shaped_table(shape, seed, EVERY_KIND)
     tree = build_tree(bodies)
     w = len(tree.lanes)
@@ -67,8 +70,20 @@ def test_every_body_has_a_row_below_its_parents(shaped_table, shape, seed):
             assert parent < 0 or bodies[body].hinge.kind == "elastic"
             continue
         above, its_lane = divmod(tree.row[parent], w)
-        assert tree.parent[block] == above < block
+        share, foot_share = tree.body[block, SHARE * w + lane], tree.body[block, FOOT_SHARE * w + lane]
+        second = foot_share == 1.0
+        assert above == (tree.foot if second else tree.parent)[block] < block
         assert tree.alone[above] or its_lane == lane
+        assert share == (0.0 if second else 1.0 / w if tree.alone[block] else 1.0)
+
+
+@pytest.mark.property
+def test_vehicle_fills_seven_blocks(table):
+    """The two leaves that three full blocks on the hull leave over share a block with road wheels."""
+    tree = build_tree(table)
+    assert len(tree.parent) == 7
+    assert np.count_nonzero(tree.foot == 0) == 1
+    assert np.bincount(tree.row // 8).tolist() == [1, 8, 8, 8, 8, 7, 1]
 
 
 @pytest.mark.property

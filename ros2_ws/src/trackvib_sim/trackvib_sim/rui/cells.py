@@ -49,6 +49,13 @@ def put3(c, k, w, i, a):
 
 
 @inlined
+def pick3(first, a, b, out, k, w, i):
+    """Copy a vector from block a, or else from block b, to block `out`."""
+    x, y = get3(a, k, w, i), get3(b, k, w, i)
+    put3(out, k, w, i, (x[0] if first else y[0], x[1] if first else y[1], x[2] if first else y[2]))
+
+
+@inlined
 def put6(c, k, w, i, a):
     """Write a symmetric matrix."""
     put3(c, k, w, i, (a[0], a[1], a[2]))

@@ -4,8 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .cells import get3, get9, new_cells, put3, put9
+from .cells import get3, get9, new_cells, pick3, put3, put9
 from .compiled import inlined, kernel
+from .packing import SLIDE
 from .spatial import (
     add,
     axis_rotation,
@@ -19,7 +20,7 @@ from .spatial import (
     subtract,
     vector,
 )
-from .tree import AXIS, PLACE, SLIDE, new_rows
+from .tree import AXIS, FOOT_SHARE, PLACE, new_rows
 
 # quantities of a body's motion, by their place in `Motion.cells`, global axes
 ROTATION = 0  # body axes -> global axes, row by row
@@ -40,12 +41,14 @@ class Motion(NamedTuple):
     cells: np.ndarray  # (blocks, MOTION W)
     sine: np.ndarray  # (rows,) of the hinges' angles
     cosine: np.ndarray  # (rows,)
+    parents: np.ndarray  # (MOTION W,) room for parents from two blocks
 
 
 def new_motion(tree):
     """Return an empty record."""
-    cells = new_cells(len(tree.parent), MOTION * len(tree.lanes))
-    return Motion(tree.lanes, cells, new_rows(tree), new_rows(tree))
+    width = MOTION * len(tree.lanes)
+    cells, parents = new_cells(len(tree.parent), width), new_cells(1, width)[0]
+    return Motion(tree.lanes, cells, new_rows(tree), new_rows(tree), parents)
 
 
 @inlined
@@ -113,6 +116,22 @@ def _slide(tree, alone, up, body, hinge, hinge_rate, cells):
 
 
 @inlined
+def _gather_parents(tree, body, foot, up, out):
+    """Bring together what children need of their parents, where some stand on the foot."""
+    w = len(tree.lanes)
+    for i in range(tree.width[0]):
+        second = body[FOOT_SHARE * w + i] > 0.0
+        pick3(second, foot, up, out, ROTATION, w, i)
+        pick3(second, foot, up, out, ROTATION + 3, w, i)
+        pick3(second, foot, up, out, ROTATION + 6, w, i)
+        pick3(second, foot, up, out, ORIGIN, w, i)
+        pick3(second, foot, up, out, VELOCITY, w, i)
+        pick3(second, foot, up, out, RATE, w, i)
+        pick3(second, foot, up, out, DRIFT, w, i)
+        pick3(second, foot, up, out, ANGULAR_DRIFT, w, i)
+
+
+@inlined
 def update_motion(tree, state, motion):
     """Fill `motion` from `state` (A, Om, P, v from parent to child)."""
     w, cells = len(tree.lanes), motion.cells
@@ -123,13 +142,17 @@ def update_motion(tree, state, motion):
         if p < 0:
             _free_body(tree, state, tree.free[j], cells[j])
             continue
+        up = cells[p]
+        if tree.foot[j] >= 0:
+            _gather_parents(tree, tree.body[j], cells[tree.foot[j]], cells[p], motion.parents)
+            up = motion.parents
         first, end = j * w, (j + 1) * w
         hinge_rate = state.hinge_rate[first:end]
         if tree.kind[j] == SLIDE:
-            _slide(tree, tree.alone[j], cells[p], tree.body[j], state.hinge[first:end], hinge_rate, cells[j])
+            _slide(tree, tree.alone[j], up, tree.body[j], state.hinge[first:end], hinge_rate, cells[j])
         else:
             sine, cosine = motion.sine[first:end], motion.cosine[first:end]
-            _revolute(tree, tree.alone[j], cells[p], tree.body[j], sine, cosine, hinge_rate, cells[j])
+            _revolute(tree, tree.alone[j], up, tree.body[j], sine, cosine, hinge_rate, cells[j])
 
 
 @inlined

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .cells import add3, add6, add9, get3, get6, get9, new_cells, put3, put6, put9, sum_lanes
+from .cells import add3, add6, add9, get3, get6, get9, new_cells, pick3, put3, put6, put9, sum_lanes
 from .compiled import inlined, kernel
 from .cuts import (
     DRIVE,
@@ -27,10 +27,11 @@ from .cuts import (
     Q,
     R,
 )
-from .kinematics import ANGULAR_DRIFT, DRIFT, HINGE_AXIS, LEVER, ORIGIN, RATE, motion_vector
+from .kinematics import ANGULAR_DRIFT, DRIFT, HINGE_AXIS, LEVER, ORIGIN, RATE, ROTATION, motion_vector
+from .packing import SLIDE
 from .root import solve_root
 from .spatial import add, cross, dot, rotate, rotate_back, scale, subtract, symmetric_product
-from .tree import MOBILE, PLACE, SHARE, SLIDE
+from .tree import FOOT_SHARE, MOBILE, PLACE, SHARE
 
 # quantities of a body's response, by their place in `Response.cells`, global axes
 LINEAR, ANGULAR = 0, 3  # of the origin, m/s^2 and rad/s^2
@@ -43,11 +44,13 @@ class Response(NamedTuple):
 
     lanes: tuple
     cells: np.ndarray  # (blocks, RESPONSE W)
+    parents: np.ndarray  # (RESPONSE W,) room for parents from two blocks
 
 
 def new_response(tree):
     """Return an empty record."""
-    return Response(tree.lanes, new_cells(len(tree.parent), RESPONSE * len(tree.lanes)))
+    width = RESPONSE * len(tree.lanes)
+    return Response(tree.lanes, new_cells(len(tree.parent), width), new_cells(1, width)[0])
 
 
 @inlined
@@ -64,12 +67,18 @@ def solve_accelerations(tree, motion, cuts, response):
                 _close_slide(tree, tree.body[j], motion.cells[j], cut)
             else:
                 _close_revolute(tree, tree.body[j], motion.cells[j], cut)
-            _hand_on(tree, tree.body[j], motion.cells[j], cut, cuts.cells[p])
+            _hand_on(tree, tree.body[j], SHARE, motion.cells[j], cut, cuts.cells[p])
+            if tree.foot[j] >= 0:
+                _hand_on(tree, tree.body[j], FOOT_SHARE, motion.cells[j], cut, cuts.cells[tree.foot[j]])
     for j in range(tree.parent.size):
         p = tree.parent[j]
         if p >= 0:
+            up = response.cells[p]
+            if tree.foot[j] >= 0:
+                _gather_parents(tree, tree.body[j], response.cells[tree.foot[j]], response.cells[p], response.parents)
+                up = response.parents
             turns = 0.0 if tree.kind[j] == SLIDE else 1.0
-            _hand_out(tree, turns, motion.cells[j], cuts.cells[j], response.cells[p], response.cells[j])
+            _hand_out(tree, turns, motion.cells[j], cuts.cells[j], up, response.cells[j])
 
 
 @inlined
@@ -160,7 +169,7 @@ def _eliminate(body, cut, w, i, u_q, u_m, pivot, gamma):
 
 
 @inlined
-def _hand_on(tree, body, m, cut, up):
+def _hand_on(tree, body, share_of, m, cut, up):
     """Add X^T S_h X and X^T s_h to the parents' cuts, where X moves accelerations from their origin by the lever."""
     w = len(tree.lanes)
     for i in range(tree.width[0]):
@@ -183,12 +192,22 @@ def _hand_on(tree, body, m, cut, up):
             r[4] + (y * n[8] - z * n[5]) + (x * q[3] - y * q[0]),
             r[5] + (z * n[2] - x * n[8]) + (x * q[4] - y * q[1]),
         )
-        share = body[SHARE * w + i]
+        share = body[share_of * w + i]
         add6(up, P, w, i, share, p)
         add9(up, Q, w, i, share, n)
         add6(up, R, w, i, share, r)
         add3(up, FORCE, w, i, share, s_q)
         add3(up, MOMENT, w, i, share, s_m)
+
+
+@inlined
+def _gather_parents(tree, body, foot, up, out):
+    """Bring together the x of the parents, where some stand on the foot."""
+    w = len(tree.lanes)
+    for i in range(tree.width[0]):
+        second = body[FOOT_SHARE * w + i] > 0.0
+        pick3(second, foot, up, out, LINEAR, w, i)
+        pick3(second, foot, up, out, ANGULAR, w, i)
 
 
 @inlined
@@ -223,7 +242,9 @@ def hinge_wrench(tree, motion, cuts, response, body):
     """Return q [N] and m [N m] of a body on its parent, about the hinge point on the parent: f = S_h x + s_h."""
     w = len(tree.lanes)
     j, i = body // w, body % w
-    cut, m, up = cuts.cells[j], motion.cells[j], response.cells[tree.parent[j]]
+    on_foot = tree.foot[j] >= 0 and tree.body[j, FOOT_SHARE * w + i] > 0.0
+    parent = tree.foot[j] if on_foot else tree.parent[j]
+    cut, m, up = cuts.cells[j], motion.cells[j], response.cells[parent]
     lever = get3(m, LEVER, w, i)
     al = get3(up, ANGULAR, w, i)
     a = add(get3(up, LINEAR, w, i), cross(al, lever))
@@ -231,5 +252,5 @@ def hinge_wrench(tree, motion, cuts, response, body):
     force = add(add(symmetric_product(get6(cut, P, w, i), a), rotate(q, al)), get3(cut, FORCE, w, i))
     moment = add(add(rotate_back(q, a), symmetric_product(get6(cut, R, w, i), al)), get3(cut, MOMENT, w, i))
     # a slide has moved on from the hinge point on the parent
-    lever_now = subtract(lever, rotate(get9(motion.cells[tree.parent[j]], 0, w, i), get3(tree.body[j], PLACE, w, i)))
+    lever_now = subtract(lever, rotate(get9(motion.cells[parent], ROTATION, w, i), get3(tree.body[j], PLACE, w, i)))
     return force, add(moment, cross(lever_now, force))

@@ -1,9 +1,7 @@
-"""From the table of bodies to the arrays that the compiled sweeps work on: bodies side by side in lanes.
+"""From the table of bodies to the arrays that the compiled sweeps work on: bodies side by side in lanes (`packing`).
 
-Bodies that hang on the same body by hinges of the same kind are independent of each other until their loads meet in
-it, so the sweeps treat up to eight of them at once, each in a lane of its own, and what hangs behind a body stays in
-its lane: the branches of the tree run side by side. A body with branches in several lanes fills all lanes of its block
-(it stands *alone*); what its branches hand on is then summed over the lanes.
+A body with branches in several lanes stands alone in its block and fills all of its lanes; what its branches hand on is
+summed over them.
 """
 
 from typing import NamedTuple
@@ -11,17 +9,17 @@ from typing import NamedTuple
 import numpy as np
 
 from .cells import new_cells
+from .packing import pack
 from .state import TreeState, free_bodies
 from .table import check_table
 
-REVOLUTE, SLIDE = 0, 1
 LANES = 8  # doubles in the widest vector register of present processors
 
 # Quantities of a body that never change, by their place in `Tree.body`, body axes: hinge point on the parent [m], hinge
-# axis, M [kg], M r_OC [kg m], inertia about the origin [kg m^2], what its lane counts in the parent's sum, whether its
-# hinge moves freely (1 or 0).
-PLACE, AXIS, MASS, MASS_MOMENT, INERTIA, SHARE, MOBILE = 0, 3, 6, 7, 10, 16, 17
-BODY = 18
+# axis, M [kg], M r_OC [kg m], inertia about the origin [kg m^2], what its lane counts in the sums of the block above
+# and of the foot, whether its hinge moves freely (1 or 0).
+PLACE, AXIS, MASS, MASS_MOMENT, INERTIA, SHARE, FOOT_SHARE, MOBILE = 0, 3, 6, 7, 10, 16, 17, 18
+BODY = 19
 
 
 class ElasticHinges(NamedTuple):
@@ -41,6 +39,7 @@ class Tree(NamedTuple):
     lanes: tuple  # 0, 1, ... W - 1
     width: np.ndarray  # (1,) W, where a loop must not know it
     parent: np.ndarray  # (blocks,) block of the parents, lane by lane; -1 for a free body
+    foot: np.ndarray  # (blocks,) block of the other parents, where lanes have a second branch; else -1
     free: np.ndarray  # (blocks,) index of a free body in the state, -1 for the others
     kind: np.ndarray  # (blocks,) REVOLUTE or SLIDE
     alone: np.ndarray  # (blocks,) whether one body fills all lanes
@@ -69,10 +68,10 @@ def build_tree(bodies, gravity=(0.0, 0.0, -9.81)):
     gravity = np.array(gravity, dtype=float)
     if gravity.shape != (3,) or not np.all(np.isfinite(gravity)):
         raise ValueError(f"gravity is {gravity.tolist()}, must be three finite numbers [m/s^2]")
-    packed = _pack(bodies, LANES)
+    packed = pack(bodies, LANES)
     # lanes pay, also in memory, where on average at least three bodies share a block; a chain has none to share
     w = LANES if 3 * len(packed) <= len(bodies) else 1
-    return _fill(bodies, packed if w == LANES else _pack(bodies, 1), w, gravity)
+    return _fill(bodies, packed if w == LANES else pack(bodies, 1), w, gravity)
 
 
 def rest_lanes(tree):
@@ -106,41 +105,6 @@ def to_table(tree, state):
     return TreeState(*(part.copy() for part in state[:4]), state.hinge[tree.row], state.hinge_rate[tree.row])
 
 
-def _pack(bodies, w):
-    """Return the blocks: (bodies in lanes, None where a lane is empty; block of the parents; kind), parents first."""
-    n = len(bodies)
-    rows = {body.name: row for row, body in enumerate(bodies)}
-    children = [[] for _ in range(n)]
-    size = np.ones(n, dtype=int)
-    free = set(free_bodies(bodies))
-    for row in range(n - 1, 0, -1):
-        if row not in free:
-            parent = rows[bodies[row].hinge.parent]
-            size[parent] += size[row]
-            children[parent].append(row)
-
-    def of_kind(row, kind):
-        """Largest branches first, so that those of about the same size come to stand side by side."""
-        alike = [] if row is None else [c for c in children[row] if _kind(bodies[c]) == kind]
-        return sorted(alike, key=lambda c: (-size[c], c))
-
-    blocks = [([row], -1, REVOLUTE) for row in sorted(free)]
-    for at, (members, _, _) in enumerate(blocks):  # grows while it is gone through
-        for kind in (REVOLUTE, SLIDE):
-            if len(members) == 1:
-                branches = of_kind(members[0], kind)
-                blocks += [(branches[k : k + w], at, kind) for k in range(0, len(branches), w)]
-            else:
-                lanes = [of_kind(row, kind) for row in members]
-                for k in range(max(map(len, lanes))):
-                    blocks.append(([lane[k] if k < len(lane) else None for lane in lanes], at, kind))
-    return blocks
-
-
-def _kind(body):
-    return SLIDE if body.hinge.kind == "slide" else REVOLUTE
-
-
 def _fill(bodies, blocks, w, gravity):
     n_blocks = len(blocks)
     cells = new_cells(n_blocks, BODY * w)
@@ -148,26 +112,25 @@ def _fill(bodies, blocks, w, gravity):
     # An empty lane holds a ghost: a body of mass 1 that is locked and whose share is 0.
     body[:, [AXIS, MASS, INERTIA, INERTIA + 1, INERTIA + 2]] = 1.0
     row = np.zeros(len(bodies), dtype=np.int64)
-    alone = np.zeros(n_blocks, dtype=bool)
-    free = np.full(n_blocks, -1)
-    for block, (members, parent, _) in enumerate(blocks):
-        alone[block] = len(members) == 1
-        if parent < 0:
-            free[block] = block  # they stand first, in the order of the table
-        for lane in range(w) if alone[block] else range(len(members)):
-            member = members[0 if alone[block] else lane]
+    for at, block in enumerate(blocks):
+        for lane in range(w if block.alone else len(block.members)):
+            member = block.members[0 if block.alone else lane]
             if member is not None:
                 # a body that stands alone has its mass in equal parts in all lanes
-                body[block, :, lane] = _constants(bodies[member], 1.0 / w if alone[block] else 1.0)
-                row[member] = block * w + (0 if alone[block] else lane)
+                body[at, :, lane] = _constants(bodies[member], 1.0 / w if block.alone else 1.0)
+                row[member] = at * w + (0 if block.alone else lane)
+                if member in block.second:
+                    body[at, [SHARE, FOOT_SHARE], lane] = 0.0, 1.0
     names = {each.name: at for each, at in zip(bodies, row, strict=True)}
     return Tree(
         lanes=tuple(range(w)),
         width=np.array([w]),
-        parent=np.array([parent for _, parent, _ in blocks]),
-        free=free,
-        kind=np.array([kind for _, _, kind in blocks]),
-        alone=alone,
+        parent=np.array([block.parent for block in blocks]),
+        foot=np.array([blocks[block.parent].parent if block.second else -1 for block in blocks]),
+        # they stand first, in the order of the table
+        free=np.array([at if block.parent < 0 else -1 for at, block in enumerate(blocks)]),
+        kind=np.array([block.kind for block in blocks]),
+        alone=np.array([block.alone for block in blocks]),
         body=cells,
         elastic=_elastic(bodies, names),
         gravity=gravity,
