@@ -76,15 +76,14 @@ def _second_branches(blocks, children, w):
     The lanes must be of a block whose parents stand on the same foot; for these lanes the foot is the parent.
     """
     behind = {}
-    for block in blocks:
-        behind.setdefault(block.parent, []).append(block)
+    for at, block in enumerate(blocks):
+        behind.setdefault(block.parent, []).append(at)
     gone = set()
     for at, block in enumerate(blocks):
         short = len(block.members) < w and not any(children[row] for row in block.members if row is not None)
         if block.parent < 0 or not blocks[block.parent].alone or not short:
             continue
-        on_foot = [k for k, each in enumerate(blocks) if each.parent == block.parent and k != at]
-        for host in (each for k in on_foot for each in behind.get(k, [])):
+        for host in (blocks[k] for beside in behind[block.parent] for k in behind.get(beside, [])):
             host.members += [None] * (w - len(host.members)) if not host.alone else []
             free = [lane for lane, row in enumerate(host.members) if row is None]
             if host.kind == block.kind and len(free) >= len(block.members):

@@ -12,21 +12,7 @@ import numpy as np
 
 from .cells import add3, add6, add9, get3, get6, get9, new_cells, pick3, put3, put6, put9, sum_lanes
 from .compiled import inlined, kernel
-from .cuts import (
-    DRIVE,
-    FORCE,
-    GAMMA,
-    IMPEDANCE,
-    MOBILITY,
-    MOMENT,
-    POOLED,
-    TORQUE,
-    U_FORCE,
-    U_MOMENT,
-    P,
-    Q,
-    R,
-)
+from .cuts import DRIVE, FORCE, GAMMA, IMPEDANCE, MOBILITY, MOMENT, POOLED, TORQUE, U_FORCE, U_MOMENT, P, Q, R
 from .kinematics import ANGULAR_DRIFT, DRIFT, HINGE_AXIS, LEVER, ORIGIN, RATE, ROTATION, motion_vector
 from .packing import SLIDE
 from .root import solve_root
