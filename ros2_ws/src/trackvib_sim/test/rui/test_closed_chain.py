@@ -57,7 +57,7 @@ class _Dense:
         rows = {body.name: row for row, body in enumerate(self.bodies)}
         for k, each in enumerate(pins):
             ends.append([
-                model.addFrame(pin.Frame(f"{k}{name}", self.joints[rows[name]],
+                model.addFrame(pin.Frame(f"{k}{name}", self.joints[rows[name]], 0,
                                          pin.SE3(np.eye(3), np.array(place, float)), pin.FrameType.OP_FRAME))
                 for name, place in ((each.body_a, each.point_a), (each.body_b, each.point_b))
             ])  # fmt: skip
