@@ -7,9 +7,10 @@ import pinocchio as pin
 import pytest
 from numpy.testing import assert_allclose
 from scipy.linalg import eigh
+from trackvib_sim.rui.elements import cross_matrix
 from trackvib_sim.rui.linear_model import LinearModel
 from trackvib_sim.rui.linear_sweep import count_below, tips_to_root
-from trackvib_sim.rui.linear_tree import cross_matrix, linearise, move
+from trackvib_sim.rui.linear_tree import linearise, move
 from trackvib_sim.rui.modes import natural_frequencies
 from trackvib_sim.rui.natural_modes import mode_shapes, natural_values, number_of_freedoms
 from trackvib_sim.rui.state import no_loads, rest_state

@@ -22,9 +22,9 @@ from .compiled import kernel
 from .cut_pin import check_pin, pin_name
 from .cuts import apply_force, new_cuts, open_cuts
 from .kinematics import ORIGIN, RATE, ROTATION, VELOCITY, new_motion, update_motion
-from .riccati import ANGULAR, HINGE, LINEAR, hinge_wrench, new_response, solve_accelerations
-from .solve import accelerations
-from .spatial import load3, scale, store3, vector
+from .riccati import ANGULAR, HINGE, LINEAR, new_response, solve_accelerations
+from .solve import accelerations, store_hinge_wrenches
+from .spatial import load3, scale, vector
 from .state import Accelerations
 from .tree import build_tree, new_rows, to_lanes
 
@@ -168,13 +168,7 @@ def _respond(tree, motion, no_torque, pair, place, force, cuts, response, wrench
     apply_force(cuts, motion, pair[0], load3(place, 0), push)
     apply_force(cuts, motion, pair[1], load3(place, 1), scale(-1.0, push))
     solve_accelerations(tree, motion, cuts, response)
-    w = len(tree.lanes)
-    for b in range(tree.row.size):
-        row = tree.row[b]
-        if tree.parent[row // w] >= 0:
-            q, m = hinge_wrench(tree, motion, cuts, response, row)
-            store3(wrench[:, :3], b, q)
-            store3(wrench[:, 3:], b, m)
+    store_hinge_wrenches(tree, motion, cuts, response, wrench)
 
 
 def _solve(bodies, pins, ends, units, wanted):

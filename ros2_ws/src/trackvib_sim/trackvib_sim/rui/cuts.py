@@ -19,7 +19,18 @@ import numpy as np
 from .cells import add3, add6, add9, get3, get6, get9, new_cells, put3, put6, put9
 from .compiled import inlined, kernel
 from .kinematics import ANGULAR_DRIFT, DRIFT, ORIGIN, RATE, ROTATION, motion_vector, point_velocity
-from .spatial import add, cross, multiply, rotate, scale, subtract, symmetric_product, turn_inertia
+from .spatial import (
+    add,
+    add_symmetric,
+    cross,
+    multiply,
+    rotate,
+    scale,
+    scale_symmetric,
+    subtract,
+    symmetric_product,
+    turn_inertia,
+)
 from .tree import INERTIA, MASS, MASS_MOMENT
 
 # quantities of a cut, by their place in `Cuts.cells`; those up to POOLED are summed where a body stands alone
@@ -125,7 +136,7 @@ def apply_implicit_bush(cuts, motion, gravity, body, place, stiffness, damping, 
     cut, i = cuts.cells[body // w], body % w
     r = subtract(place, motion_vector(motion, ORIGIN, body))
     om = motion_vector(motion, RATE, body)
-    z = add6_scaled(scale6(dt, damping), dt * dt, stiffness)
+    z = add_symmetric(scale_symmetric(dt, damping), scale_symmetric(dt * dt, stiffness))
     fall = add(motion_vector(motion, DRIFT, body), (gravity[0], gravity[1], gravity[2]))
     fall = add(fall, add(cross(motion_vector(motion, ANGULAR_DRIFT, body), r), cross(om, cross(om, r))))
     velocity = point_velocity(motion, body, place)
@@ -140,16 +151,3 @@ def apply_implicit_bush(cuts, motion, gravity, body, place, stiffness, damping, 
     add6(cut, P, w, i, -1.0, z)
     add9(cut, Q, w, i, 1.0, zr)
     add6(cut, R, w, i, 1.0, (rzr[0], rzr[4], rzr[8], rzr[1], rzr[2], rzr[5]))
-
-
-@inlined
-def scale6(factor, s):
-    """Return factor * S for a symmetric S."""
-    return (factor * s[0], factor * s[1], factor * s[2], factor * s[3], factor * s[4], factor * s[5])
-
-
-@inlined
-def add6_scaled(s, factor, t):
-    """Return S + factor * T for symmetric S and T."""
-    u = scale6(factor, t)
-    return (s[0] + u[0], s[1] + u[1], s[2] + u[2], s[3] + u[3], s[4] + u[4], s[5] + u[5])

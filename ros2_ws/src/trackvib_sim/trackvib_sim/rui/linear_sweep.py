@@ -11,7 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .linear_tree import LinearTree, cross_matrix, move
+from .elements import cross_matrix
+from .linear_tree import LinearTree, move
 
 
 class Sweep(NamedTuple):

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from .elements import cross_matrix
 from .linear_model import settled
 from .placement import parent_rows, place_bodies
 
@@ -44,11 +45,6 @@ class LinearTree(NamedTuple):
     unbalanced: np.ndarray  # (n, 6) static wrench left over on root and bodies behind elastic hinges, about Q
     unbalanced_torque: np.ndarray  # (n,) left over on hinges, along the coordinate
     fixed_root: bool
-
-
-def cross_matrix(v):
-    """Return [v]x (3, 3) with [v]x w = v x w."""
-    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
 
 
 def move(r):

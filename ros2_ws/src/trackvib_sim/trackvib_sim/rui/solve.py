@@ -67,13 +67,22 @@ def _collect(tree, motion, cuts, response, found):
         for k in range(3):
             found.linear[b, k] = cells[(LINEAR + k) * w + i] + drift[k] + tree.gravity[k]
             found.angular[b, k] = cells[(ANGULAR + k) * w + i] + angular[k]
-        if tree.parent[row // w] >= 0:
-            _store_wrench(found.wrench[b], *hinge_wrench(tree, motion, cuts, response, row))
+    store_hinge_wrenches(tree, motion, cuts, response, found.wrench)
     for k in range(tree.elastic.child.size):
         force, moment = elastic_wrench(tree, motion, k)
         lever = subtract(motion_vector(motion, ORIGIN, tree.elastic.child[k]), elastic_place(tree, motion, k))
         on_parent = scale(-1.0, force), scale(-1.0, add(moment, cross(lever, force)))
         _store_wrench(found.wrench[tree.elastic.number[k]], *on_parent)
+
+
+@kernel
+def store_hinge_wrenches(tree, motion, cuts, response, wrench):
+    """Fill `wrench` (n, 6) by `hinge_wrench` of every body with a hinge that constrains it, in the table's order."""
+    w = len(tree.lanes)
+    for b in range(tree.row.size):
+        row = tree.row[b]
+        if tree.parent[row // w] >= 0:
+            _store_wrench(wrench[b], *hinge_wrench(tree, motion, cuts, response, row))
 
 
 @kernel

@@ -181,6 +181,18 @@ def symmetric_product(s, a):
 
 
 @inlined
+def scale_symmetric(factor, s):
+    """Return factor * S for a symmetric S."""
+    return (factor * s[0], factor * s[1], factor * s[2], factor * s[3], factor * s[4], factor * s[5])
+
+
+@inlined
+def add_symmetric(s, t):
+    """Return S + T for symmetric S and T."""
+    return (s[0] + t[0], s[1] + t[1], s[2] + t[2], s[3] + t[3], s[4] + t[4], s[5] + t[5])
+
+
+@inlined
 def symmetric_inverse(s):
     """Return the inverse of a symmetric matrix, by its cofactors."""
     xx = s[1] * s[2] - s[5] * s[5]
@@ -211,11 +223,3 @@ def store3(array, row, a):
     array[row, 0] = a[0]
     array[row, 1] = a[1]
     array[row, 2] = a[2]
-
-
-@inlined
-def add3(array, row, a):
-    """Add a vector to row `row` of an (n, 3) array."""
-    array[row, 0] += a[0]
-    array[row, 1] += a[1]
-    array[row, 2] += a[2]
