@@ -21,10 +21,13 @@ setup(
     install_requires=[
         "setuptools",
         "click",
+        "cma",
+        "distributed",
         "matplotlib",
         "mcap",
         "numba",
         "numpy",
+        "pin",
         "pydantic>=2",
         "pyyaml",
         "rich",
