@@ -8,9 +8,7 @@ from mr_mount_controller.laws.base import Sample, answer
 from ..road.feeder import RoadFeeder
 from .exchange import Exchange
 from .settings import NANO
-from .simulation import CHASSIS, POWERTRAIN
-
-HORIZON = 50.0  # m
+from .simulation import CHASSIS, HORIZON, POWERTRAIN
 
 
 class Record(NamedTuple):

@@ -1,21 +1,31 @@
 """The vehicle in motion: holds system, state and road, and advances one control period at a time."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from ..road.store import RoadStore
 from ..vehicle.equilibrium import rolling_state
 from ..vehicle.running_gear.wheels_on_road import FOOTPRINT
-from ..vehicle.system import build_system, new_work
+from ..vehicle.system import body_rows, build_system, new_work
 from .settings import NANO
-from .step import BELOW_ROAD, GOOD, NOT_FINITE, OVERTURNED, Sensors, advance, new_sample, observe
+from .step import BELOW_ROAD, GOOD, NOT_FINITE, OVERTURNED, Sensors, advance, advance_many, new_sample, observe
 
 CHASSIS, POWERTRAIN = 0, 1  # rows of the sample
+HORIZON = 50.0  # m of road that a run in one process keeps ahead of the vehicle
 _MARGIN = 0.5  # m of road beyond what a period needs
 _REASONS = {
     NOT_FINITE: "the state is no longer finite",
     OVERTURNED: "the vehicle has overturned",
     BELOW_ROAD: "a road wheel lies below the road",
 }
+
+
+class Probe(NamedTuple):
+    """A further point whose acceleration is measured."""
+
+    body: str  # name in the body table
+    place: tuple  # in the body's axes, from its origin, m
 
 
 class RunFailed(RuntimeError):
@@ -29,7 +39,7 @@ class Simulation:
     ----------
     sample : step.Sample
         Of the last control period; rows `CHASSIS` and `POWERTRAIN` are the two ends of the mounts, in the middle
-        between left and right. Before the first period only its state, not its means, is filled.
+        between left and right; the probes follow. Before the first period only its state, not its means, is filled.
     state : vehicle.system.State
     road : road.store.RoadStore
         To be filled by the caller, as far ahead as `road_is_enough` asks.
@@ -37,21 +47,23 @@ class Simulation:
         Control periods done.
     """
 
-    def __init__(self, vehicle, settings):
+    def __init__(self, vehicle, settings, probes=()):
         self.settings = settings
         self.system = build_system(vehicle, settings.operation, 1.0 / settings.rates.physics)
         self.state = rolling_state(self.system, settings.passive_current)
         self.road = RoadStore()
         self.periods = 0
         mounts = self.system.mounts
+        rows = body_rows(vehicle, self.system.tree)
         self.sensors = Sensors(
-            np.array([mounts.hull, mounts.powertrain]), np.stack((mounts.lower.mean(0), mounts.upper.mean(0)))
+            np.array([mounts.hull, mounts.powertrain, *(rows[probe.body] for probe in probes)]),
+            np.stack((mounts.lower.mean(0), mounts.upper.mean(0), *(probe.place for probe in probes))),
         )
         self.sample, self._next = new_sample(self.sensors), new_sample(self.sensors)
         self._work = new_work(self.system)
         observe(self.system, self.state, self._work.motion, self.sample)
         reach = max(abs(x) for x in vehicle.swing_arms.wheel_x) + vehicle.swing_arms.length + FOOTPRINT
-        self._reach = reach + 1.5 * settings.operation.speed / settings.rates.control + _MARGIN
+        self._reach = reach + _MARGIN
 
     @property
     def time(self):
@@ -65,7 +77,7 @@ class Simulation:
 
     def road_is_enough(self):
         """Return whether the next period can be done with the road at hand."""
-        return self._stretch() is not None
+        return self._stretch(1) is not None
 
     def advance(self, demanded):
         """Do one control period with the demanded currents (2,) [A].
@@ -75,20 +87,38 @@ class Simulation:
         RunFailed
             The state left what the model can describe. `sample` is still the last good one.
         """
+        steps = self.settings.rates.steps
         status = advance(
+            self.system, self.state, self._stretch(1), demanded, steps, self._work, self.sensors, self._next
+        )
+        self._end_periods(status, 1 if status == GOOD else 0)
+        self.sample, self._next = self._next, self.sample
+
+    def advance_many(self, demanded, force, speed):
+        """Do a control period for each row of `force` (k, m, 3) [m/s^2] and of `speed` (k,) [m/s].
+
+        They are filled with the sensors' specific forces and the hull's speed along its own x axis. Raises as
+        `advance` does, with the rows before the failure filled.
+        """
+        status, done = advance_many(
             self.system,
             self.state,
-            self._stretch(),
+            self._stretch(len(force)),
             demanded,
             self.settings.rates.steps,
             self._work,
             self.sensors,
-            self._next,
+            self.sample,
+            force,
+            speed,
         )
+        self._end_periods(status, done)
+
+    def _end_periods(self, status, done):
+        self.periods += done
         if status != GOOD:
             raise RunFailed(f"{_REASONS[status]} after t = {self.time / NANO:.3f} s")
-        self.sample, self._next = self._next, self.sample
-        self.periods += 1
 
-    def _stretch(self):
-        return self.road.around(self.distance - self._reach, self.distance + self._reach)
+    def _stretch(self, periods):
+        ahead = 1.5 * periods * self.settings.operation.speed / self.settings.rates.control
+        return self.road.around(self.distance - self._reach, self.distance + self._reach + ahead)

@@ -115,6 +115,23 @@ def advance(system, state, road, demanded, steps, work, sensors, sample):
 
 
 @kernel
+def advance_many(system, state, road, demanded, steps, work, sensors, sample, force, speed):
+    """Advance by as many control periods as `force` (k, m, 3) and `speed` (k,) have rows, and fill them.
+
+    Returns the status as `advance` does and the number of good periods.
+    """
+    for k in range(speed.size):
+        status = advance(system, state, road, demanded, steps, work, sensors, sample)
+        if status != GOOD:
+            return status, k
+        speed[k] = sample.hull_velocity[0, 0]
+        for i in range(sensors.body.size):
+            for axis in range(3):
+                force[k, i, axis] = sample.specific_force[i, axis]
+    return GOOD, speed.size
+
+
+@kernel
 def observe(system, state, motion, sample):
     """Fill what a sample says about the end of the period."""
     update_motion(system.tree, state.tree, motion)

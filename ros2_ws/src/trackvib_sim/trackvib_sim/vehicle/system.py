@@ -30,6 +30,7 @@ class Operation:
     speed: float  # m/s
     engine_speed: float  # r/min, 0 for a standing engine
     imposed_displacement: bool  # the paper's engine excitation instead of forces and moments
+    track_phase: float = 0.0  # part of a pitch by which the right track lies ahead of the left one
 
 
 class System(NamedTuple):
@@ -69,7 +70,7 @@ def build_system(vehicle, operation, dt):
     """Return the `System` of a vehicle (`parameters.Vehicle`) in an operation, for physics steps of dt [s]."""
     table = body_table(vehicle)
     tree = build_tree(table, gravity=(0.0, 0.0, -GRAVITY))
-    rows = {body.name: row for body, row in zip(table, tree.row.tolist(), strict=True)}
+    rows = body_rows(vehicle, tree)
     mass = {body.name: body.mass for body in table}
     return System(
         dt=dt,
@@ -82,6 +83,11 @@ def build_system(vehicle, operation, dt):
         driver=driver(vehicle, rows, operation.speed),
         wheels=wheels_on_road(vehicle, rows, sum(mass.values()) * GRAVITY / (len(SIDES) * STATIONS)),
     )
+
+
+def body_rows(vehicle, tree):
+    """Return the rows in the tree of all bodies of a vehicle, by name."""
+    return {body.name: row for body, row in zip(body_table(vehicle), tree.row.tolist(), strict=True)}
 
 
 def new_state(system):

@@ -1,0 +1,43 @@
+"""A run under constant current, without controller and without a crossing to Python a period."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..road.feeder import RoadFeeder
+from .simulation import HORIZON
+
+_CHUNK = 100  # periods in one compiled call
+
+
+class OpenLoopRecord(NamedTuple):
+    """What a run measured, one row a control period; sensors in the order of the simulation's sample."""
+
+    time: np.ndarray  # (k,) s
+    specific_force: np.ndarray  # (k, m, 3) m/s^2
+    speed: np.ndarray  # (k,) of the hull, along its own x axis, m/s
+
+
+def run_open_loop(simulation, road, periods, progress=lambda done: None):
+    """Run a `simulation.Simulation` on a road with its passive current for a number of control periods.
+
+    Gives what `closed_loop.run_closed_loop` gives under the passive law with that current, to the last bit.
+    `progress(done)` is called now and then with the periods done.
+
+    Raises
+    ------
+    RunFailed
+        The state left what the model can describe.
+    """
+    feeder = RoadFeeder(road, HORIZON)
+    current = np.full(2, simulation.settings.passive_current)
+    force = np.zeros((periods, *simulation.sample.specific_force.shape))
+    speed = np.zeros(periods)
+    for first in range(0, periods, _CHUNK):
+        for start, spacing, heights in feeder.patches(simulation.distance):
+            simulation.road.add(start, spacing, *heights)
+        part = slice(first, first + _CHUNK)
+        simulation.advance_many(current, force[part], speed[part])
+        progress(min(first + _CHUNK, periods))
+    time = np.arange(1, periods + 1) / simulation.settings.rates.control
+    return OpenLoopRecord(time, force, speed)
