@@ -8,15 +8,15 @@ from nav_msgs.msg import Odometry
 from trackvib_msgs.msg import RoadProfile
 
 from ..road.feeder import RoadFeeder
-from ..road.iso8608 import CLASSES, Iso8608Road
+from ..road.iso8608 import CLASSES, FADE, LEVEL_UNTIL, Iso8608Road
 from .qos import ROAD_QOS
 from .topics import ODOMETRY, ROAD_FRAME, ROAD_PROFILE
 
 PARAMETERS = (
     Parameter("road_class", "E", "Class of the road by ISO 8608.", choices=tuple(CLASSES)),
     Parameter("seed", 1, "Seed of the profile; the same seed gives the same road.", "", 0, 10**9),
-    Parameter("level_until", 8.0, "Distance up to which the road is level.", "m", -1000.0, 1e6),
-    Parameter("fade", 8.0, "Distance over which the roughness then fades in.", "m", 0.1, 1000.0),
+    Parameter("level_until", LEVEL_UNTIL, "Distance up to which the road is level.", "m", -1000.0, 1e6),
+    Parameter("fade", FADE, "Distance over which the roughness then fades in.", "m", 0.1, 1000.0),
     Parameter("horizon", 50.0, "Distance ahead of the vehicle that is always published.", "m", 10.0, 200.0),
 )
 

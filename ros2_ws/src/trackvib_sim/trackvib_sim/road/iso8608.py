@@ -18,6 +18,7 @@ LOWEST, HIGHEST = 0.011, 2.83  # 1/m, the standard's range
 HARMONICS = 1000
 COHERENCE_LENGTH = 1.4  # m; the two tracks' coherence falls as exp(-1.4 n) (assumed, tracks 2.8 m apart)
 SPACING = 0.05  # m
+LEVEL_UNTIL, FADE = 8.0, 8.0  # m, by default: a vehicle starts on level ground, then the roughness fades in
 
 
 def roughness(road_class, frequency):

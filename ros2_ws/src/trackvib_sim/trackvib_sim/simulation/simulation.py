@@ -5,19 +5,19 @@ from typing import NamedTuple
 import numpy as np
 
 from ..road.store import RoadStore
-from ..vehicle.equilibrium import rolling_state
-from ..vehicle.running_gear.wheels_on_road import FOOTPRINT
 from ..vehicle.system import body_rows, build_system, new_work
+from .run_in import run_in
 from .settings import NANO
-from .step import BELOW_ROAD, GOOD, NOT_FINITE, OVERTURNED, Sensors, advance, advance_many, new_sample, observe
+from .step import AIRBORNE, BELOW_ROAD, GOOD, LONGEST_FLIGHT, NOT_FINITE, OVERTURNED, Sensors, advance, advance_many, new_sample, observe
 
 CHASSIS, POWERTRAIN = 0, 1  # rows of the sample
 HORIZON = 50.0  # m of road that a run in one process keeps ahead of the vehicle
-_MARGIN = 0.5  # m of road beyond what a period needs
+_MARGIN = 1.0  # m of road beyond sprockets and idlers
 _REASONS = {
     NOT_FINITE: "the state is no longer finite",
     OVERTURNED: "the vehicle has overturned",
     BELOW_ROAD: "a road wheel lies below the road",
+    AIRBORNE: f"no shoe has touched the ground for {LONGEST_FLIGHT:g} s",
 }
 
 
@@ -50,7 +50,7 @@ class Simulation:
     def __init__(self, vehicle, settings, probes=()):
         self.settings = settings
         self.system = build_system(vehicle, settings.operation, 1.0 / settings.rates.physics)
-        self.state = rolling_state(self.system, settings.passive_current)
+        self.state = run_in(vehicle, self.system, settings)
         self.road = RoadStore()
         self.periods = 0
         mounts = self.system.mounts
@@ -62,7 +62,7 @@ class Simulation:
         self.sample, self._next = new_sample(self.sensors), new_sample(self.sensors)
         self._work = new_work(self.system)
         observe(self.system, self.state, self._work.motion, self.sample)
-        reach = max(abs(x) for x in vehicle.swing_arms.wheel_x) + vehicle.swing_arms.length + FOOTPRINT
+        reach = max(abs(x) for x in (*vehicle.swing_arms.wheel_x, *vehicle.idlers.x, *vehicle.sprockets.x))
         self._reach = reach + _MARGIN
 
     @property

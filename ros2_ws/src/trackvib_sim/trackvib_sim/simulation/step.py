@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..rui.compiled import kernel
+from ..rui.compiled import inlined, kernel
 from ..rui.cuts import open_cuts
 from ..rui.integrator import integrate
 from ..rui.kinematics import (
@@ -23,11 +23,12 @@ from ..vehicle.driver import add_driver
 from ..vehicle.engine import add_engine, imposed_displacement
 from ..vehicle.hinge_springs import add_hinge_springs
 from ..vehicle.mr_mounts import MountSample, add_mounts, new_mount_sample, observe_mounts
-from ..vehicle.running_gear.wheels_on_road import add_wheels_on_road, wheel_below_road
 from ..vehicle.suspension import add_suspension
+from ..vehicle.tracks.tracks import add_tracks, move_tracks, wheel_below_road
 
-GOOD, NOT_FINITE, OVERTURNED, BELOW_ROAD = range(4)
+GOOD, NOT_FINITE, OVERTURNED, BELOW_ROAD, AIRBORNE = range(5)
 LEAST_UPRIGHT = 0.36  # cosine of the hull's tilt; 1.2 rad is beyond what the suspension and the driver are made for
+LONGEST_FLIGHT = 1.0  # s; from 1.2 m, where no driver goes and no running gear is made for
 
 
 class Sensors(NamedTuple):
@@ -56,21 +57,20 @@ def new_sample(sensors):
     return Sample(np.zeros((m, 3)), np.zeros((m, 3)), np.zeros((1, 3)), np.zeros((1, 3)), new_mount_sample())
 
 
-@kernel
-def accelerations(system, state, road, work):
-    """From the state, all forces and from them, by the two sweeps, all accelerations."""
+@inlined
+def add_forces(system, state, road, work):
+    """From the state the motion of all bodies, and on them all forces."""
     tree, motion, cuts = system.tree, work.motion, work.cuts
     work.torques[:] = 0.0
     add_hinge_springs(system.springs, state.tree, work.torques)
     add_suspension(system.suspension, state.tree, work.torques)
     update_motion(tree, state.tree, motion)
     open_cuts(tree, motion, work.torques, cuts)
-    add_wheels_on_road(system.wheels, state.brushes, road, motion, cuts, system.dt)
+    add_tracks(system.tracks, state.tracks, state.tree, road, motion, cuts, work.tracks, system.dt)
     displacement, displacement_rate = imposed_displacement(system.engine, state.crank_angle[0])
     add_mounts(system.mounts, motion, cuts, state.currents, displacement, displacement_rate)
     add_engine(system.engine, state.crank_angle[0], motion, cuts)
     add_driver(system.driver, motion, cuts, state.speed_integral, system.dt)
-    solve_accelerations(tree, motion, cuts, work.response)
 
 
 @kernel
@@ -86,6 +86,31 @@ def measure(work, sensors, sample, share):
             sample.rate[i, k] += share * rate[k]
 
 
+@inlined
+def end_step(system, state, road, work, sensors, sample, share):
+    """With all accelerations known: measure with weight `share` in the means, then integrate.
+
+    Returns `GOOD`, or what made the state leave the valid range.
+    """
+    measure(work, sensors, sample, share)
+    integrate(system.tree, state.tree, work.response, system.dt)
+    move_tracks(system.tracks, state.tracks, work.motion, system.tree.gravity, work.tracks, system.dt)
+    state.crank_angle[0] = (state.crank_angle[0] + system.dt * system.engine.speed) % (4.0 * np.pi)
+    # the hull's accelerations act on its speed, every other one on that of its hinge
+    total = state.tree.velocity.sum() + state.tree.rate.sum() + state.tree.hinge_rate.sum()
+    # not np.isfinite: it compiles to total - total == 0, which reassociation turns into "true"
+    if not abs(total) < np.inf:
+        return NOT_FINITE
+    if rotation(work.motion, system.driver.hull)[8] < LEAST_UPRIGHT:
+        return OVERTURNED
+    if wheel_below_road(system.tracks, road, work.motion):
+        return BELOW_ROAD
+    state.flight[0] = 0.0 if work.tracks.touching[0] > 0.0 else state.flight[0] + system.dt
+    if state.flight[0] > LONGEST_FLIGHT:
+        return AIRBORNE
+    return GOOD
+
+
 @kernel
 def advance(system, state, road, demanded, steps, work, sensors, sample):
     """Advance the vehicle by one control period of `steps` physics steps with constant demanded currents (2,) [A].
@@ -94,22 +119,13 @@ def advance(system, state, road, demanded, steps, work, sensors, sample):
     """
     sample.specific_force[:] = 0.0
     sample.rate[:] = 0.0
-    dt = system.dt
     for _ in range(steps):
         drive_coils(system.coil, demanded, state.currents)
-        accelerations(system, state, road, work)
-        measure(work, sensors, sample, 1.0 / steps)
-        integrate(system.tree, state.tree, work.response, dt)
-        state.crank_angle[0] = (state.crank_angle[0] + dt * system.engine.speed) % (4.0 * np.pi)
-        # the hull's accelerations act on its speed, every other one on that of its hinge
-        total = state.tree.velocity.sum() + state.tree.rate.sum() + state.tree.hinge_rate.sum()
-        # not np.isfinite: it compiles to total - total == 0, which reassociation turns into "true"
-        if not abs(total) < np.inf:
-            return NOT_FINITE
-        if rotation(work.motion, system.driver.hull)[8] < LEAST_UPRIGHT:
-            return OVERTURNED
-        if wheel_below_road(system.wheels, road, work.motion):
-            return BELOW_ROAD
+        add_forces(system, state, road, work)
+        solve_accelerations(system.tree, work.motion, work.cuts, work.response)
+        status = end_step(system, state, road, work, sensors, sample, 1.0 / steps)
+        if status != GOOD:
+            return status
     observe(system, state, work.motion, sample)
     return GOOD
 

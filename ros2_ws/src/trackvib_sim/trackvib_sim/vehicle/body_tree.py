@@ -11,6 +11,7 @@ import numpy as np
 
 from ..rui.table import Body, Hinge
 
+GRAVITY = 9.81  # m/s^2
 LEFT, RIGHT = 0, 1
 SIDES = {LEFT: 1.0, RIGHT: -1.0}  # sign of y
 STATIONS = 6

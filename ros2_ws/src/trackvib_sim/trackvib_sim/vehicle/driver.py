@@ -1,7 +1,4 @@
-"""The driver: keeps speed and lane by torque on the road wheels, as long as the vehicle runs without tracks.
-
-The torque's reaction acts on the hull, where final drives and sprockets sit, not on the swing arms.
-"""
+"""The driver: keeps speed and lane by torque on the sprockets, whose reaction acts on the hull."""
 
 from typing import NamedTuple
 
@@ -11,14 +8,15 @@ from ..rui.compiled import kernel
 from ..rui.cuts import apply_wrench
 from ..rui.kinematics import HINGE_AXIS, ORIGIN, RATE, VELOCITY, body_axes, motion_vector, rotation
 from ..rui.spatial import scale
-from .body_tree import SIDES, STATIONS, wheel_name
+from .body_tree import SIDES, SPROCKET
+from .tracks.sprockets import pitch_radius
 
 
 class Driver(NamedTuple):
     """Gains and what they act on."""
 
     hull: int  # row in the tree
-    wheel: np.ndarray  # (2, 6) rows of the driven wheels, left first
+    sprocket: np.ndarray  # (2,) rows, left first
     radius: float  # m, turns force into torque
     half_tread: float  # m
     speed: float  # wanted, m/s
@@ -35,9 +33,9 @@ def driver(vehicle, rows, speed):
     d = vehicle.driver
     return Driver(
         hull=rows["hull"],
-        wheel=np.array([[rows[wheel_name(side, station)] for station in range(STATIONS)] for side in SIDES]),
-        radius=vehicle.road_wheels.radius,
-        half_tread=vehicle.road_wheels.y,
+        sprocket=np.array([rows[f"sprocket_{SPROCKET[side]}"] for side in SIDES]),
+        radius=pitch_radius(vehicle),
+        half_tread=vehicle.sprockets.y,
         speed=speed,
         speed_gain=d.speed_gain,
         integral_gain=d.speed_integral_gain,
@@ -50,7 +48,7 @@ def driver(vehicle, rows, speed):
 
 @kernel
 def add_driver(driver, motion, cuts, integral, dt):
-    """Add the wheel torques and advance the integral (1,) [N] of the speed error; it rests while the force is cut."""
+    """Add the torques and advance the integral (1,) [N] of the speed error; it rests while the force is cut."""
     forward = body_axes(motion, driver.hull, motion_vector(motion, VELOCITY, driver.hull))[0]
     error = driver.speed - forward
     wanted = driver.speed_gain * error + integral[0]
@@ -63,16 +61,14 @@ def add_driver(driver, motion, cuts, integral, dt):
     turning = motion_vector(motion, RATE, driver.hull)[2]
     moment = driver.heading_gain * (wanted_heading - heading) - driver.heading_damping * turning
     steering = 0.5 * moment / driver.half_tread
-    wheels = driver.wheel.shape[1]
-    for i in range(wheels):
-        # a moment to the left pulls on the right side
-        drive_wheel(driver, motion, cuts, driver.wheel[0, i], driver.radius * (0.5 * force - steering) / wheels)
-        drive_wheel(driver, motion, cuts, driver.wheel[1, i], driver.radius * (0.5 * force + steering) / wheels)
+    # a moment to the left pulls on the right side
+    turn_sprocket(driver, motion, cuts, driver.sprocket[0], driver.radius * (0.5 * force - steering))
+    turn_sprocket(driver, motion, cuts, driver.sprocket[1], driver.radius * (0.5 * force + steering))
 
 
 @kernel
-def drive_wheel(driver, motion, cuts, wheel, torque):
-    """Turn a wheel about its axle by a torque [N m] that stands on the hull."""
-    moment = scale(torque, motion_vector(motion, HINGE_AXIS, wheel))
-    apply_wrench(cuts, wheel, (0.0, 0.0, 0.0), moment)
+def turn_sprocket(driver, motion, cuts, sprocket, torque):
+    """Turn a sprocket about its axle by a torque [N m] that stands on the hull."""
+    moment = scale(torque, motion_vector(motion, HINGE_AXIS, sprocket))
+    apply_wrench(cuts, sprocket, (0.0, 0.0, 0.0), moment)
     apply_wrench(cuts, driver.hull, (0.0, 0.0, 0.0), scale(-1.0, moment))

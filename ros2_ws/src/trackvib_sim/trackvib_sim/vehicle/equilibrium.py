@@ -1,23 +1,21 @@
-"""Static equilibrium on a level road, and the state of a vehicle that rolls over it at constant speed."""
+"""Static equilibrium of the standing vehicle on a level road, its tracks taken as springs."""
 
 import numpy as np
 from scipy.optimize import root
 from scipy.spatial.transform import Rotation
 
-from ..road.store import Road
 from ..rui.cells import columns
 from ..rui.compiled import kernel
 from ..rui.cuts import open_cuts
-from ..rui.kinematics import ORIGIN, update_motion
+from ..rui.kinematics import update_motion
 from ..rui.riccati import HINGE, LINEAR, RESPONSE, solve_accelerations
 from .hinge_springs import add_hinge_springs
 from .mr_mounts import add_mounts
-from .running_gear.wheels_on_road import add_wheels_on_road, radial_force
+from .supports import add_supports
 from .suspension import add_suspension
 from .system import new_state, new_work
 
 TOLERANCE = 1e-8  # m/s^2 and rad/s^2 left over
-LEVEL = Road(-200, 0.1, np.zeros((2, 401)))
 
 
 class NoEquilibrium(ValueError):
@@ -25,7 +23,7 @@ class NoEquilibrium(ValueError):
 
 
 @kernel
-def _static_accelerations(system, state, road, work):
+def _static_accelerations(system, state, work):
     """Fill `work.response` with the accelerations that a standing vehicle would have with its engine off."""
     work.torques[:] = 0.0
     add_hinge_springs(system.springs, state.tree, work.torques)
@@ -33,15 +31,15 @@ def _static_accelerations(system, state, road, work):
     update_motion(system.tree, state.tree, work.motion)
     open_cuts(system.tree, work.motion, work.torques, work.cuts)
     add_mounts(system.mounts, work.motion, work.cuts, state.currents, 0.0, 0.0)
-    add_wheels_on_road(system.wheels, state.brushes, road, work.motion, work.cuts, 0.0)
+    add_supports(system.supports, work.motion, work.cuts)
     solve_accelerations(system.tree, work.motion, work.cuts, work.response)
 
 
 def static_equilibrium(system, current):
     """Return the state at rest on a level road at height zero with `current` [A] in both coils.
 
-    The unknowns are height, roll and pitch of the hull and every hinge that a spring or the ground holds; wheels,
-    rollers, sprockets and idlers may stand at any angle and stay at zero.
+    The unknowns are place, roll and pitch of the hull and every hinge that a spring or the ground holds; wheels,
+    rollers, sprockets and idlers may stand at any angle and stay at zero. The tracks are not laid.
 
     Raises
     ------
@@ -55,16 +53,14 @@ def static_equilibrium(system, current):
     held = np.concatenate((sprung, system.suspension.row))
 
     def residual(unknowns):
-        state.tree.position[0, 2] = unknowns[0]
-        state.tree.attitude[0] = np.roll(Rotation.from_euler("xy", unknowns[1:3]).as_quat(), 1)  # scalar first
-        state.tree.hinge[held] = unknowns[3:]
-        _static_accelerations(system, state, LEVEL, work)
+        state.tree.position[0] = unknowns[:3]
+        state.tree.attitude[0] = np.roll(Rotation.from_euler("xyz", unknowns[3:6]).as_quat(), 1)  # scalar first
+        state.tree.hinge[held] = unknowns[6:]
+        _static_accelerations(system, state, work)
         linear, angular, hinges = accelerations(system, work)
-        return np.concatenate((linear[2:], angular[:2], hinges[held]))
+        return np.concatenate((linear, angular, hinges[held]))
 
-    guess = np.zeros(3 + len(held))
-    guess[0] = -system.wheels.static_depth  # wheels must touch, or the residual does not feel the road
-    found = root(residual, guess, method="hybr", options={"xtol": 1e-14, "eps": 1e-8})
+    found = root(residual, np.zeros(6 + len(held)), method="hybr", options={"xtol": 1e-14, "eps": 1e-8})
     residual(found.x)
     # all of them: what nothing holds must not move either
     left_over = max(np.abs(part).max() for part in accelerations(system, work))
@@ -81,23 +77,3 @@ def accelerations(system, work):
     found = columns(work.response, LINEAR, RESPONSE)
     hull = found[system.tree.row[0]]
     return hull[:3] + system.tree.gravity, hull[3:6], found[:, HINGE]
-
-
-def rolling_state(system, current):
-    """Return the equilibrium state set in motion: hull at the wanted speed, wheels rolling without slip.
-
-    The driver already pulls with what the rubber's damping resists.
-    """
-    state = static_equilibrium(system, current)
-    work = new_work(system)
-    update_motion(system.tree, state.tree, work.motion)
-    speed = system.driver.speed
-    state.tree.velocity[0, 0] = speed
-    origin = columns(work.motion, ORIGIN, 3)
-    for side, row in zip(system.wheels.side, system.wheels.row, strict=True):
-        hub = tuple(origin[row])
-        force, depth = radial_force(system.wheels, LEVEL, side, hub, (speed, 0.0, 0.0), (1.0, 0.0, 0.0))
-        along = force[2] / np.linalg.norm(force)  # of the speed, at the contact that the rubber's damping tilts
-        state.tree.hinge_rate[row] = speed * along / (system.wheels.radius - depth)
-        state.speed_integral[0] -= force[0]
-    return state

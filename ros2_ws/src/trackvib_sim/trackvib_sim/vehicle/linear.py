@@ -3,26 +3,22 @@
 import numpy as np
 
 from ..rui.cells import columns
-from ..rui.kinematics import ORIGIN, ROTATION, update_motion
+from ..rui.kinematics import ORIGIN, point_place, update_motion
 from ..rui.linear_model import GroundSpring, LinearModel, Mount
 from ..rui.state import no_loads
 from ..rui.tree import new_rows, to_table
-from .body_tree import body_table
-from .equilibrium import LEVEL, static_equilibrium
+from .body_tree import STATIONS, body_table
+from .equilibrium import static_equilibrium
 from .hinge_springs import add_hinge_springs
 from .mr_mounts import mount_characteristics, mount_deflection, mount_force
-from .running_gear.wheels_on_road import radial_force
 from .suspension import add_suspension
 from .system import new_work
-
-SMALL = 1e-7  # m and m/s, for the slopes of the tyres' force
-AHEAD = (1.0, 0.0, 0.0)
 
 
 def linear_vehicle(vehicle, system, current):
     """Return the `rui.linear_model.LinearModel` of a vehicle at rest on level road.
 
-    The wheels stand: their tangential brushes hold like springs. Shock absorbers have the slope of small speeds, the MR
+    The tracks are springs and the sprockets braked (`supports`). Shock absorbers have the slope of small speeds, the MR
     mounts k(I) and c(I) of a constant current [A], the same in both coils.
 
     Raises
@@ -66,32 +62,15 @@ def _mounts(system, motion, current):
 
 
 def _ground(system, bodies, motion):
-    """Two springs a wheel: the radial ones push on the hub and do not turn with the wheel, the brush does."""
-    wheels = system.wheels
+    """Springs push on the hubs, which do not turn with the wheels, and hold the hull where the sprockets are."""
+    supports = system.supports
     name = {row: body.name for body, row in zip(bodies, system.tree.row.tolist(), strict=True)}
-    origin, rotation = columns(motion, ORIGIN, 3), columns(motion, ROTATION, 9).reshape(-1, 3, 3)
-    brush = [np.diag([wheels.longitudinal[i], wheels.lateral[i], 0.0]) for i in range(2)]
-    for row, side in zip(wheels.row.tolist(), wheels.side, strict=True):
-        force, depth, stiffness, damping = _radial(wheels, side, tuple(origin[row]))
-        yield GroundSpring(name[row], np.zeros(3), stiffness, damping, np.array([0.0, 0.0, force]))
-        below = np.array([0.0, 0.0, depth - wheels.radius])  # of the hub, global axes
-        yield GroundSpring(name[row], rotation[row].T @ below, *brush)
-
-
-def _radial(wheels, side, hub):
-    """Vertical force [N], depth [m], and by differences the force's slopes (3, 3) with place [N/m] and speed [N s/m].
-
-    On level road the force does not depend on where along it the wheel stands, and the oblique springs damp forward
-    motion, too.
-    """
-
-    def force(height, forward, upward):
-        place = (hub[0], hub[1], hub[2] + height)
-        return radial_force(wheels, LEVEL, side, place, (forward, 0.0, upward), AHEAD)
-
-    now, depth = force(0.0, 0.0, 0.0)
-    slopes = [
-        (force(*-step)[0][axis] - force(*step)[0][axis]) / (2.0 * SMALL)
-        for step, axis in zip(SMALL * np.eye(3), (2, 0, 2), strict=True)
-    ]
-    return now[2], depth, np.diag([0.0, 0.0, slopes[0]]), np.diag([slopes[1], 0.0, slopes[2]])
+    hub = columns(motion, ORIGIN, 3)
+    wheel = [np.diag([0.0, supports.lateral[i], supports.vertical[i]]) for i in range(2)]
+    for row, side in zip(supports.wheel.tolist(), np.repeat((1.0, -1.0), STATIONS), strict=True):
+        away = np.array([0.0, side * supports.brake[0, 1], supports.radius]) - hub[row]
+        yield GroundSpring(name[row], np.zeros(3), *wheel, wheel[0] @ away)
+    brake = [np.diag([supports.longitudinal[i], 0.0, 0.0]) for i in range(2)]
+    for place in supports.brake:
+        held = point_place(motion, supports.hull, tuple(place))
+        yield GroundSpring(name[supports.hull], place, *brake, brake[0] @ (place - held))

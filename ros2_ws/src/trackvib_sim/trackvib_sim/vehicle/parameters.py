@@ -6,6 +6,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from .tracks.nodes import MOST_LINKS
 from .quantities import scalar, vector, vectors
 
 Mass = scalar("kg", gt=0.0)
@@ -145,17 +146,60 @@ class RoadWheels(Section):
     bearing_damping: Gain("N m s/rad")
 
 
-class Tyres(Section):
-    """Rubber of the road wheels: radial at static load, tangential as brushes with a relaxation length."""
+class Rims(Section):
+    """Where wheels, rollers or idlers touch the links: radial contact, friction, sideways guidance."""
 
     radial_stiffness: scalar("N/m", gt=0.0)
     radial_damping: Gain("N s/m")
-    longitudinal_stiffness: Gain("N/m")
-    longitudinal_damping: Gain("N s/m")
-    lateral_stiffness: Gain("N/m")
-    lateral_damping: Gain("N s/m")
-    relaxation_length: Length
+    friction: Gain("-")
+    guide_stiffness: Gain("N/m")
+    guide_damping: Gain("N s/m")
+
+
+class Tracks(Section):
+    """Links and pins of both tracks."""
+
+    links: scalar("-", ge=20.0, le=float(MOST_LINKS), multiple_of=1.0)
+    pitch: Length
+    shoe_mass: Mass
+    link_stiffness: scalar("N/m", gt=0.0)
+    link_damping: Gain("N s/m")
+    pin_stiffness: Gain("N m/rad")
+    pin_damping: Gain("N m s/rad")
+    sideways_stiffness: Gain("N m/rad")
+    pretension: Gain("N")
+
+
+class Ground(Section):
+    """The ground under one shoe."""
+
+    stiffness: scalar("N/m", gt=0.0)
+    damping: Gain("N s/m")
+    shear_stiffness: scalar("N/m", gt=0.0)
+    shear_damping: Gain("N s/m")
     friction: scalar("-", gt=0.0)
+
+
+class Teeth(Section):
+    """Contact of the sprockets' teeth with the pins."""
+
+    teeth: scalar("-", ge=6.0, le=40.0, multiple_of=1.0)
+    pitch_excess: scalar("-", gt=-0.1, lt=0.1)
+    flank_angle: scalar("deg", ge=0.0, le=60.0)
+    backlash: Gain("m")
+    height: Length
+    stiffness: scalar("N/m", gt=0.0)
+    damping: Gain("N s/m")
+    guide_stiffness: Gain("N/m")
+    guide_damping: Gain("N s/m")
+
+
+class Tensioners(Section):
+    """Slides that hold the idlers forwards."""
+
+    stiffness: Gain("N/m")
+    damping: Gain("N s/m")
+    travel: Length
 
 
 class HullWheels(Section):
@@ -201,10 +245,16 @@ class Vehicle(Section):
     swing_arms: SwingArms
     shock_absorbers: ShockAbsorbers
     road_wheels: RoadWheels
-    tyres: Tyres
+    tyres: Rims
     sprockets: HullWheels
+    sprocket_teeth: Teeth
     carrier_rollers: HullWheels
+    roller_rims: Rims
     idlers: HullWheels
+    idler_rims: Rims
+    tensioners: Tensioners
+    tracks: Tracks
+    ground: Ground
     driver: Driver
 
     @model_validator(mode="after")

@@ -10,17 +10,17 @@ from ..rui.kinematics import Motion, new_motion
 from ..rui.riccati import Response, new_response
 from ..rui.state import TreeState
 from ..rui.tree import Tree, build_tree, new_rows, rest_lanes
-from .body_tree import SIDES, STATIONS, body_table
+from .body_tree import GRAVITY, body_table
 from .coil import Coil, coil
 from .driver import Driver, driver
 from .engine import Engine, engine
 from .hinge_springs import HingeSprings, hinge_springs
 from .mr_mounts import MrMounts, mr_mounts
-from .running_gear.wheels_on_road import WheelsOnRoad, WheelsState, wheels_on_road
+from .supports import Supports, supports
 from .suspension import Suspension, suspension
+from .tracks.tracks import Tracks, TrackState, TrackWork, new_track_state, new_track_work, tracks
 
 SPRUNG = ("hull", "turret", "gun_mount", "recoil_part", "powertrain")
-GRAVITY = 9.81  # m/s^2
 
 
 @dataclass(frozen=True)
@@ -44,17 +44,19 @@ class System(NamedTuple):
     coil: Coil
     engine: Engine
     driver: Driver
-    wheels: WheelsOnRoad
+    supports: Supports
+    tracks: Tracks
 
 
 class State(NamedTuple):
     """Everything that does, changed in place."""
 
     tree: TreeState
-    brushes: WheelsState
+    tracks: TrackState
     currents: np.ndarray  # (2,) in the coils, A
     crank_angle: np.ndarray  # (1,) rad, within one cycle of all orders
     speed_integral: np.ndarray  # (1,) N
+    flight: np.ndarray  # (1,) time since a shoe last touched the ground, s
 
 
 class Work(NamedTuple):
@@ -64,6 +66,7 @@ class Work(NamedTuple):
     torques: np.ndarray  # (rows,) of the hinges, N m or N
     cuts: Cuts
     response: Response
+    tracks: TrackWork
 
 
 def build_system(vehicle, operation, dt):
@@ -81,7 +84,8 @@ def build_system(vehicle, operation, dt):
         coil=coil(vehicle, dt),
         engine=engine(vehicle, rows, operation.engine_speed, operation.imposed_displacement),
         driver=driver(vehicle, rows, operation.speed),
-        wheels=wheels_on_road(vehicle, rows, sum(mass.values()) * GRAVITY / (len(SIDES) * STATIONS)),
+        supports=supports(vehicle, rows),
+        tracks=tracks(vehicle, rows),
     )
 
 
@@ -91,18 +95,18 @@ def body_rows(vehicle, tree):
 
 
 def new_state(system):
-    """Return a state with every coordinate at zero."""
-    wheels = len(system.wheels.row)
+    """Return a state with every coordinate at zero and no track laid."""
     return State(
         tree=rest_lanes(system.tree),
-        brushes=WheelsState(np.zeros(wheels), np.zeros(wheels)),
+        tracks=new_track_state(system.tracks),
         currents=np.zeros(2),
         crank_angle=np.zeros(1),
         speed_integral=np.zeros(1),
+        flight=np.zeros(1),
     )
 
 
 def new_work(system):
     """Return working room for a system."""
     tree = system.tree
-    return Work(new_motion(tree), new_rows(tree), new_cuts(tree), new_response(tree))
+    return Work(new_motion(tree), new_rows(tree), new_cuts(tree), new_response(tree), new_track_work())

@@ -1,0 +1,48 @@
+"""The state in which a run begins: tracks laid at pretension, then rolled in on a level road until everything is settled."""
+
+import numpy as np
+
+from ..road.store import Road
+from ..vehicle.system import new_state, new_work
+from ..vehicle.tracks.initial import lay_tracks
+from ..vehicle.tracks.nodes import PLACE, STRIDE
+from .step import GOOD, Sensors, advance, new_sample
+
+DURATION = 3.0  # s; the slowest motion, of the driver's speed control, has a time constant of 0.5 s
+_SPACING = 1.0  # m
+_BEHIND = 10.0  # m
+
+
+class CannotRoll(ValueError):
+    """The vehicle does not survive its run-in on a level road."""
+
+
+def run_in(vehicle, system, settings):
+    """Return the state of a vehicle that rolls steadily on a level road at height zero, its hull's origin at x = y = 0.
+
+    Raises
+    ------
+    CannotRoll
+        The state leaves what the model can describe.
+    """
+    state, work = new_state(system), new_work(system)
+    state.currents[:] = settings.passive_current
+    speed = settings.operation.speed
+    lay_tracks(vehicle, system, state, speed, settings.operation.track_phase)
+    samples = int((2.0 * _BEHIND + 1.5 * DURATION * speed) / _SPACING) + 2
+    road = Road(int(-_BEHIND / _SPACING), _SPACING, np.zeros((2, samples)))
+    sensors = Sensors(np.zeros(0, int), np.zeros((0, 3)))
+    steps = round(DURATION / system.dt)
+    status = advance(system, state, road, state.currents.copy(), steps, work, sensors, new_sample(sensors))
+    if status != GOOD:
+        raise CannotRoll(f"the vehicle cannot roll at {speed:g} m/s on a level road; check the vehicle file")
+    return _back_at_start(state)
+
+
+def _back_at_start(state):
+    """Shift everything by the hull's x and y."""
+    nodes = state.tracks.nodes.reshape(2, -1, STRIDE)
+    for axis in range(2):
+        nodes[:, PLACE + axis] -= state.tree.position[0, axis]
+        state.tree.position[0, axis] = 0.0
+    return state

@@ -1,0 +1,78 @@
+"""Results of cases as files, so that a study does only what no earlier one has done."""
+
+import hashlib
+import json
+import os
+from contextlib import contextmanager
+from dataclasses import asdict, astuple
+from pathlib import Path
+
+from .drive import Result
+
+PACKAGE = Path(__file__).parents[1]
+DECISIVE = (  # modules that `drive` runs; all others may change without making its results void
+    "rui/**/*.py",
+    "road/**/*.py",
+    "vehicle/**/*.py",
+    "simulation/**/*.py",
+    "analysis/summary.py",
+    "analysis/vibration.py",
+    "studies/drive.py",
+)
+
+
+class CaseStore:
+    """A folder with one JSON file a finished case.
+
+    A file counts only for the vehicle file and the program that made it: a hash of both leads its name.
+    """
+
+    def __init__(self, folder, vehicle_text):
+        """Make the folder if there is none; raises OSError if that cannot be."""
+        self._folder = Path(folder)
+        self._folder.mkdir(parents=True, exist_ok=True)
+        self._key = text_hash(vehicle_text + program())[:12]
+
+    @property
+    def foreign(self):
+        """How many files come from another vehicle file or another version of the program."""
+        return sum(not path.name.startswith(self._key) for path in self._folder.glob("*.json"))
+
+    def load(self, case):
+        """Return the `Result` of a case, or None if it is not there."""
+        try:
+            content = json.loads(self._path(case).read_text(encoding="utf-8"))
+        except FileNotFoundError:
+            return None
+        return Result(**content["result"])
+
+    def save(self, case, result):
+        """Keep a result. Whatever happens, there is either a whole file or none."""
+        with whole_file(self._path(case)) as draft:
+            content = {"case": asdict(case), "result": asdict(result)}
+            draft.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+
+    def _path(self, case):
+        return self._folder / f"{'_'.join(map(str, (self._key, *astuple(case))))}.json"
+
+
+@contextmanager
+def whole_file(path):
+    """Give a path to write to; what was written becomes `path` at the end, and is gone after an error."""
+    draft = path.with_name(f".{os.getpid()}.{path.name}")
+    try:
+        yield draft
+        draft.replace(path)
+    finally:
+        draft.unlink(missing_ok=True)
+
+
+def program():
+    """Return a hash of the modules that decide about a case's result."""
+    files = sorted({file for pattern in DECISIVE for file in PACKAGE.glob(pattern)})
+    return text_hash("".join(f"{file.relative_to(PACKAGE)}\n{file.read_text(encoding='utf-8')}" for file in files))
+
+
+def text_hash(text):
+    """Return the SHA-256 of a text, in hexadecimal digits."""
+    return hashlib.sha256(text.encode()).hexdigest()

@@ -1,0 +1,115 @@
+"""One case of a study: the whole vehicle over one road under constant current, as [Tao2025] drives it."""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ..analysis.summary import settling_time
+from ..analysis.vibration import band, band_limited, rms
+from ..road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road
+from ..simulation.open_loop import run_open_loop
+from ..simulation.settings import Rates, RunSettings
+from ..simulation.simulation import Probe, RunFailed, Simulation
+from ..vehicle.system import Operation
+
+# [Tao2025]: the engine at its maximum; its second order, 70 Hz, moves the mounts by 0.2 mm
+ENGINE_SPEED = 2100.0  # r/min
+IMPOSED_DISPLACEMENT = True
+RATES = Rates()
+BAND = band(RATES.control)  # Hz, of all RMS values
+MEASURING = 5.0  # s
+PROBES = ("chassis", "powertrain", "rigid")
+GOOD = "ok"
+
+
+@dataclass(frozen=True)
+class Case:
+    """What distinguishes one run of a study from the next."""
+
+    road_class: str
+    speed: float  # m/s
+    seed: int  # of the road
+    track_phase: float  # part of a pitch by which the right track lies ahead of the left one
+    current: float = 1.0  # A, in both coils
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a case gave; plain values."""
+
+    status: str  # `GOOD`, or "failed: " and why
+    rms: dict  # probe -> (x, y, z) over `BAND`, body axes, m/s^2; empty where failed
+    mean_speed: float | None  # m/s
+
+
+class Drive(NamedTuple):
+    """The settled part of a run, one row a control period."""
+
+    time: np.ndarray  # (k,) s
+    specific_force: dict  # probe -> (k, 3) body axes, m/s^2
+    limited: dict  # probe -> (k, 3) the same within `BAND`
+    speed: np.ndarray  # (k,) m/s
+
+
+def probes(vehicle):
+    """Return the measuring points, in the order of `PROBES`.
+
+    Chassis is the hull at the powertrain's rear connection, powertrain its input end, in the middle between the
+    mounts [Tao2025]. The third is the hull's own point at the latter place: what a rigid mount would give there.
+    """
+    rear = vehicle.powertrain.place
+    x, _, z = vehicle.mr_mounts.place
+    return (
+        Probe("hull", rear),
+        Probe("powertrain", (x, 0.0, z)),
+        Probe("hull", (rear[0] + x, rear[1], rear[2] + z)),
+    )
+
+
+def settling(speed):
+    """Return how long a drive at a speed [m/s] settles before it is measured [s]."""
+    return settling_time(speed, LEVEL_UNTIL + FADE)
+
+
+def prepare(vehicle, case):
+    """Return the `Simulation` of a case, with `probes` as the last rows of its sample, and its road."""
+    operation = Operation(case.speed, ENGINE_SPEED, IMPOSED_DISPLACEMENT, case.track_phase)
+    simulation = Simulation(vehicle, RunSettings(operation, RATES, case.current), probes(vehicle))
+    return simulation, Iso8608Road(case.road_class, case.seed, LEVEL_UNTIL, FADE)
+
+
+def record(vehicle, case, duration=MEASURING):
+    """Drive a case until it has settled and `duration` [s] more; returns a `Drive`.
+
+    Raises
+    ------
+    RunFailed
+        The state left what the model can describe.
+    NoEquilibrium
+        The vehicle cannot stand.
+    """
+    simulation, road = prepare(vehicle, case)
+    settled = round(settling(case.speed) * RATES.control)
+    run = run_open_loop(simulation, road, settled + round(duration * RATES.control))
+    force = dict(zip(PROBES, np.moveaxis(run.specific_force[:, -len(PROBES) :], 1, 0), strict=True))
+    # filtered before it is cut, so that the filter's own settling at the start is cut as well
+    limited = {probe: band_limited(values, RATES.control)[settled:] for probe, values in force.items()}
+    force = {probe: values[settled:] for probe, values in force.items()}
+    return Drive(run.time[settled:], force, limited, run.speed[settled:])
+
+
+def drive(vehicle, case, duration=MEASURING):
+    """Drive a case and return its `Result`; a run that leaves the valid range is a result, too.
+
+    Raises
+    ------
+    NoEquilibrium
+        The vehicle cannot stand.
+    """
+    try:
+        measured = record(vehicle, case, duration)
+    except RunFailed as error:
+        return Result(f"failed: {error}", {}, None)
+    levels = {probe: tuple(rms(values).tolist()) for probe, values in measured.limited.items()}
+    return Result(GOOD, levels, float(measured.speed.mean()))

@@ -1,1 +1,0 @@
-"""What stands between the body tree and the ground."""

@@ -1,0 +1,190 @@
+"""A track as a closed chain of pins: how its numbers lie in memory, and how it moves.
+
+Each pin is a node that carries the mass of one shoe; link i runs from node i to node i + 1. The order is that of the
+lower run from rear to front, the idler, the upper run from front to rear, the sprocket. The road wheels run over the
+chain, so a wheel's link has a growing number while the vehicle drives forward.
+
+Nodes have numbers 1 to n. Cells 0 and n + 1 repeat nodes n and 1, so that neighbours are found without a search for
+the ends of the chain. Quantity q of node i stands in cell q STRIDE + i: STRIDE is known to the compiler, which therefore
+knows that quantities do not overlap and makes vector instructions of the loops over nodes. It is an odd number of
+cache lines, because quantities an even number apart would evict each other from the cache.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...rui.cells import new_cells
+from ...rui.compiled import inlined, kernel
+from ...rui.kinematics import ORIGIN, motion_vector, rotation
+
+STRIDE = 200
+MOST_LINKS = STRIDE - 2
+
+# quantities of the state, global axes
+PLACE = 0  # m
+VELOCITY = 3  # m/s
+SHEAR = 6  # of the ground under the shoe, along the road and to the left, m
+NODE_STATE = 8
+# quantities of the work, hull axes but for GROUND
+NEAR = 0  # place from the hull's origin, m
+SPEED = 3  # velocity, not relative to the hull, m/s
+CONTACT = 6  # force of wheels and teeth on the node, N
+GROUND = 9  # force of the ground, global axes, N
+DIRECTION = 12  # of link i, unit vector
+TURNING = 15  # angular velocity of link i, rad/s
+TENSION = 18  # of link i, N
+SHORTNESS = 19  # 1 / length of link i, 1/m
+PIN_MOMENT = 20  # of link i on link i - 1, N m
+LINK_FORCE = 23  # of link i on node i, N
+NODE_WORK = 26
+
+
+class Chain(NamedTuple):
+    """What both tracks have in common."""
+
+    links: int
+    hull: int  # row in the tree
+    shoe_mass: float  # kg
+    stiffness: float  # N/m of one link
+    damping: float  # N s/m
+    free_length: float  # m of a link without tension
+    pin_stiffness: float  # N m/rad about the pin
+    sideways_stiffness: float  # N m/rad about the other axes
+    pin_damping: float  # N m s/rad
+
+
+def chain(vehicle, rows):
+    """Return the record for the vehicle."""
+    t = vehicle.tracks
+    return Chain(
+        links=int(t.links),
+        hull=rows["hull"],
+        shoe_mass=t.shoe_mass,
+        stiffness=t.link_stiffness,
+        damping=t.link_damping,
+        free_length=t.pitch,
+        pin_stiffness=t.pin_stiffness,
+        sideways_stiffness=t.sideways_stiffness,
+        pin_damping=t.pin_damping,
+    )
+
+
+def new_nodes():
+    """Return the state of both tracks, (2, NODE_STATE STRIDE)."""
+    return new_cells(2, NODE_STATE * STRIDE)
+
+
+def new_node_work():
+    """Return room for the intermediate results of both tracks, (2, NODE_WORK STRIDE)."""
+    return new_cells(2, NODE_WORK * STRIDE)
+
+
+@inlined
+def close_chain(cells, first, count, n):
+    """Repeat the ends of `count` quantities from `first` on in the cells before and behind."""
+    for q in range(first, first + count):
+        cells[q * STRIDE] = cells[q * STRIDE + n]
+        cells[q * STRIDE + n + 1] = cells[q * STRIDE + 1]
+
+
+@kernel
+def see_from_hull(chain, nodes, motion, work):
+    """Express places and velocities of one track's nodes in hull axes, and clear the forces on them."""
+    n = chain.links
+    r = rotation(motion, chain.hull)
+    o = motion_vector(motion, ORIGIN, chain.hull)
+    for i in range(1, n + 1):
+        x, y, z = nodes[i] - o[0], nodes[STRIDE + i] - o[1], nodes[2 * STRIDE + i] - o[2]
+        work[i] = r[0] * x + r[3] * y + r[6] * z
+        work[STRIDE + i] = r[1] * x + r[4] * y + r[7] * z
+        work[2 * STRIDE + i] = r[2] * x + r[5] * y + r[8] * z
+        x, y, z = nodes[3 * STRIDE + i], nodes[4 * STRIDE + i], nodes[5 * STRIDE + i]
+        work[3 * STRIDE + i] = r[0] * x + r[3] * y + r[6] * z
+        work[4 * STRIDE + i] = r[1] * x + r[4] * y + r[7] * z
+        work[5 * STRIDE + i] = r[2] * x + r[5] * y + r[8] * z
+        for q in range(CONTACT, GROUND + 3):
+            work[q * STRIDE + i] = 0.0
+    close_chain(work, NEAR, 6, n)
+
+
+@kernel
+def add_links(chain, work):
+    """Fill the forces of links and pins; returns the power that they turn into heat [W] and what they store [J].
+
+    A link is a spring and damper along itself. A pin resists the turning of one link against the next by
+    stiffness (that of its rubber about its own axis, that of the band of shoes about the others) and damping; the
+    moments reach the nodes as couples, so that forces and, but for twist, moments are in balance.
+    """
+    n = chain.links
+    heat, stored = 0.0, 0.0
+    for i in range(1, n + 1):
+        x = work[i + 1] - work[i]
+        y = work[STRIDE + i + 1] - work[STRIDE + i]
+        z = work[2 * STRIDE + i + 1] - work[2 * STRIDE + i]
+        vx = work[3 * STRIDE + i + 1] - work[3 * STRIDE + i]
+        vy = work[4 * STRIDE + i + 1] - work[4 * STRIDE + i]
+        vz = work[5 * STRIDE + i + 1] - work[5 * STRIDE + i]
+        square = x * x + y * y + z * z
+        length = np.sqrt(square)
+        short = 1.0 / length
+        x, y, z = x * short, y * short, z * short
+        rate = x * vx + y * vy + z * vz
+        stretch = length - chain.free_length
+        work[DIRECTION * STRIDE + i] = x
+        work[(DIRECTION + 1) * STRIDE + i] = y
+        work[(DIRECTION + 2) * STRIDE + i] = z
+        work[TURNING * STRIDE + i] = (y * vz - z * vy) * short
+        work[(TURNING + 1) * STRIDE + i] = (z * vx - x * vz) * short
+        work[(TURNING + 2) * STRIDE + i] = (x * vy - y * vx) * short
+        work[TENSION * STRIDE + i] = chain.stiffness * stretch + chain.damping * rate
+        work[SHORTNESS * STRIDE + i] = short
+        heat += chain.damping * rate * rate
+        stored += 0.5 * chain.stiffness * stretch * stretch
+    close_chain(work, DIRECTION, 6, n)
+    for i in range(1, n + 1):
+        ax, ay, az = work[DIRECTION * STRIDE + i - 1], work[(DIRECTION + 1) * STRIDE + i - 1], work[(DIRECTION + 2) * STRIDE + i - 1]
+        bx, by, bz = work[DIRECTION * STRIDE + i], work[(DIRECTION + 1) * STRIDE + i], work[(DIRECTION + 2) * STRIDE + i]
+        tx, ty, tz = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
+        wx = work[TURNING * STRIDE + i] - work[TURNING * STRIDE + i - 1]
+        wy = work[(TURNING + 1) * STRIDE + i] - work[(TURNING + 1) * STRIDE + i - 1]
+        wz = work[(TURNING + 2) * STRIDE + i] - work[(TURNING + 2) * STRIDE + i - 1]
+        # pins lie along the hull's y axis
+        work[PIN_MOMENT * STRIDE + i] = chain.sideways_stiffness * tx + chain.pin_damping * wx
+        work[(PIN_MOMENT + 1) * STRIDE + i] = chain.pin_stiffness * ty + chain.pin_damping * wy
+        work[(PIN_MOMENT + 2) * STRIDE + i] = chain.sideways_stiffness * tz + chain.pin_damping * wz
+        heat += chain.pin_damping * (wx * wx + wy * wy + wz * wz)
+        stored += 0.5 * (chain.sideways_stiffness * (tx * tx + tz * tz) + chain.pin_stiffness * ty * ty)
+    close_chain(work, PIN_MOMENT, 3, n)
+    for i in range(1, n + 1):
+        mx = work[PIN_MOMENT * STRIDE + i + 1] - work[PIN_MOMENT * STRIDE + i]
+        my = work[(PIN_MOMENT + 1) * STRIDE + i + 1] - work[(PIN_MOMENT + 1) * STRIDE + i]
+        mz = work[(PIN_MOMENT + 2) * STRIDE + i + 1] - work[(PIN_MOMENT + 2) * STRIDE + i]
+        x, y, z = work[DIRECTION * STRIDE + i], work[(DIRECTION + 1) * STRIDE + i], work[(DIRECTION + 2) * STRIDE + i]
+        tension, short = work[TENSION * STRIDE + i], work[SHORTNESS * STRIDE + i]
+        work[LINK_FORCE * STRIDE + i] = tension * x - short * (my * z - mz * y)
+        work[(LINK_FORCE + 1) * STRIDE + i] = tension * y - short * (mz * x - mx * z)
+        work[(LINK_FORCE + 2) * STRIDE + i] = tension * z - short * (mx * y - my * x)
+    close_chain(work, LINK_FORCE, 3, n)
+    return heat, stored
+
+
+@kernel
+def move_nodes(chain, nodes, motion, gravity, work, dt):
+    """Advance one track by dt with symplectic Euler."""
+    r = rotation(motion, chain.hull)
+    step = dt / chain.shoe_mass
+    fall_x, fall_y, fall_z = dt * gravity[0], dt * gravity[1], dt * gravity[2]
+    for i in range(1, chain.links + 1):
+        x = work[6 * STRIDE + i] + work[23 * STRIDE + i] - work[23 * STRIDE + i - 1]
+        y = work[7 * STRIDE + i] + work[24 * STRIDE + i] - work[24 * STRIDE + i - 1]
+        z = work[8 * STRIDE + i] + work[25 * STRIDE + i] - work[25 * STRIDE + i - 1]
+        vx = nodes[3 * STRIDE + i] + step * (r[0] * x + r[1] * y + r[2] * z + work[9 * STRIDE + i]) + fall_x
+        vy = nodes[4 * STRIDE + i] + step * (r[3] * x + r[4] * y + r[5] * z + work[10 * STRIDE + i]) + fall_y
+        vz = nodes[5 * STRIDE + i] + step * (r[6] * x + r[7] * y + r[8] * z + work[11 * STRIDE + i]) + fall_z
+        nodes[3 * STRIDE + i] = vx
+        nodes[4 * STRIDE + i] = vy
+        nodes[5 * STRIDE + i] = vz
+        nodes[i] += dt * vx
+        nodes[STRIDE + i] += dt * vy
+        nodes[2 * STRIDE + i] += dt * vz

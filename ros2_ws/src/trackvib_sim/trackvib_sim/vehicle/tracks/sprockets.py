@@ -1,0 +1,135 @@
+"""Sprockets: tooth by tooth contact of the pins.
+
+A pin between two teeth rests on the seat, at the pitch circle, and is driven by a flank. Flanks are straight and open
+outwards by the flank angle; between pin and flank there is backlash. A pin that comes in on the taut track must pass
+the tip of the tooth: with steep flanks, or with a track pitch that differs from the sprocket's, it strikes it. That, at the
+link-passing frequency v/p, is the strongest excitation of the vehicle.
+"""
+
+from math import pi, radians, sin
+from typing import NamedTuple
+
+import numpy as np
+
+from ...rui.compiled import kernel
+from ..body_tree import SIDES, SPROCKET
+from .nodes import STRIDE
+from .wheels import MOST_MOVES
+
+
+class Sprockets(NamedTuple):
+    """Both sprockets."""
+
+    row: np.ndarray  # (2,) in the tree
+    teeth: int
+    pitch_radius: float  # m
+    slope: float  # of the flank, tan
+    cosine: float  # of the flank angle
+    sine: float
+    backlash: float  # m from a pin in the middle to the flank, at the pitch circle
+    tip_radius: float  # m
+    stiffness: float  # N/m
+    damping: float  # N s/m
+    guide_stiffness: float  # N/m
+    guide_damping: float  # N s/m
+
+
+def pitch_radius(vehicle):
+    """Return the radius of the circle on which pins rest [m]."""
+    s = vehicle.sprocket_teeth
+    return vehicle.tracks.pitch * (1.0 + s.pitch_excess) / (2.0 * sin(pi / s.teeth))
+
+
+def sprockets(vehicle, rows):
+    """Return the record for the vehicle."""
+    s, angle = vehicle.sprocket_teeth, radians(vehicle.sprocket_teeth.flank_angle)
+    return Sprockets(
+        row=np.array([rows[f"sprocket_{SPROCKET[side]}"] for side in SIDES]),
+        teeth=int(s.teeth),
+        pitch_radius=pitch_radius(vehicle),
+        slope=np.tan(angle),
+        cosine=np.cos(angle),
+        sine=np.sin(angle),
+        backlash=s.backlash,
+        tip_radius=pitch_radius(vehicle) + s.height,
+        stiffness=s.stiffness,
+        damping=s.damping,
+        guide_stiffness=s.guide_stiffness,
+        guide_damping=s.guide_damping,
+    )
+
+
+@kernel
+def find_rear(work, i, n):
+    """Return the rearmost node, beginning from the one that was it last."""
+    for _ in range(MOST_MOVES):
+        if work[i + 1] < work[i]:
+            i = i + 1 if i < n else 1
+        elif work[i - 1] < work[i]:
+            i = i - 1 if i > 1 else n
+        else:
+            break
+    return i
+
+
+@kernel
+def add_sprocket(sprockets, hub, angle, rear, n, work):
+    """Add the teeth's forces to the pins around the rearmost node.
+
+    `angle` [rad] is that of the sprocket in the hull. Returns as `wheels.add_wheel`.
+    """
+    s = sprockets
+    share = 2.0 * np.pi / s.teeth
+    force_x, force_y, force_z = 0.0, 0.0, 0.0
+    moment_x, moment_y, moment_z = 0.0, 0.0, 0.0
+    heat, stored = 0.0, 0.0
+    i = rear - s.teeth // 2 - 1
+    i = i + n if i < 1 else i
+    for _ in range(s.teeth + 3):
+        dx, dz = work[i] - hub.x, work[2 * STRIDE + i] - hub.z
+        square = dx * dx + dz * dz
+        if square < s.tip_radius * s.tip_radius:
+            distance = np.sqrt(square)
+            rx, rz = dx / distance, dz / distance  # outwards; (rz, -rx) is the way a sprocket turns
+            # off: angle from the middle between the two teeth, as rotation about +y
+            off = np.arctan2(-dz, dx) - angle
+            off -= share * np.floor(off / share + 0.5)
+            turn = 1.0 if off > 0.0 else -1.0
+            vx, vy, vz = work[3 * STRIDE + i] - hub.vx, work[4 * STRIDE + i] - hub.vy, work[5 * STRIDE + i] - hub.vz
+            sideways = work[STRIDE + i] - hub.y
+            outwards = vx * rx + vz * rz
+            along = vx * rz - vz * rx - hub.spin * distance
+            radial, tangential = 0.0, 0.0
+            seat, above = s.pitch_radius - distance, 0.0
+            if seat > 0.0:
+                radial = max(0.0, s.stiffness * seat - s.damping * outwards)
+                heat += outwards * (s.stiffness * seat - radial)
+                stored += 0.5 * s.stiffness * seat * seat
+            else:
+                above = -seat
+            flank = (abs(off) * distance - s.backlash - s.slope * above) * s.cosine
+            if flank > 0.0:
+                # gradient of the flank's depth with distance; along the circumference it is the cosine
+                opening = abs(off) * s.cosine - (s.sine if seat <= 0.0 else 0.0)
+                closing = turn * s.cosine * along + opening * outwards
+                push = max(0.0, s.stiffness * flank + s.damping * closing)
+                tangential = -turn * s.cosine * push
+                radial -= opening * push
+                heat += closing * (push - s.stiffness * flank)
+                stored += 0.5 * s.stiffness * flank * flank
+            if radial != 0.0 or tangential != 0.0:
+                fx, fz = radial * rx + tangential * rz, radial * rz - tangential * rx
+                fy = -s.guide_stiffness * sideways - s.guide_damping * vy
+                heat += s.guide_damping * vy * vy
+                stored += 0.5 * s.guide_stiffness * sideways * sideways
+                work[6 * STRIDE + i] += fx
+                work[7 * STRIDE + i] += fy
+                work[8 * STRIDE + i] += fz
+                force_x -= fx
+                force_y -= fy
+                force_z -= fz
+                moment_x -= sideways * fz - dz * fy
+                moment_y -= dz * fx - dx * fz
+                moment_z -= dx * fy - sideways * fx
+        i = i + 1 if i < n else 1
+    return (force_x, force_y, force_z), (moment_x, moment_y, moment_z), heat, stored

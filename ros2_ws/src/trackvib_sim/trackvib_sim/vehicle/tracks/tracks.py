@@ -1,0 +1,170 @@
+"""Both tracks with all that they touch: the records, one evaluation of their forces, one step."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...rui.compiled import kernel
+from ...rui.kinematics import ORIGIN, motion_vector
+from .ground import Ground, add_ground, ground, road_height
+from .layout import fit_idler, idler_load
+from .nodes import Chain, add_links, chain, move_nodes, new_node_work, new_nodes, see_from_hull
+from .sprockets import Sprockets, add_sprocket, find_rear, sprockets
+from .tensioner import Tensioner, TensionerState, move_slide, slide_energy, tensioner
+from .wheels import IDLERS, ROAD_WHEELS, Hub, Wheels, add_wheel, find_link, hub_of, push_wheel, wheels
+
+LINKS, GROUND, RIMS, TEETH, TENSIONERS = range(5)  # where energy goes
+SINKS = 5
+
+
+class Tracks(NamedTuple):
+    """Everything about both tracks that does not change during a run."""
+
+    chain: Chain
+    ground: Ground
+    wheels: Wheels
+    sprockets: Sprockets
+    tensioner: Tensioner
+
+
+class TrackState(NamedTuple):
+    """Everything that does, left first."""
+
+    nodes: np.ndarray  # (2, NODE_STATE STRIDE)
+    link: np.ndarray  # (2, 11) that each wheel touches
+    rear: np.ndarray  # (2,) rearmost node, on the sprocket
+    tensioner: TensionerState
+
+
+class TrackWork(NamedTuple):
+    """Room for the intermediate results of a step."""
+
+    nodes: np.ndarray  # (2, NODE_WORK STRIDE)
+    push: np.ndarray  # (2,) of the track on the idler along the hull's x axis, N
+    heat: np.ndarray  # (SINKS,) W
+    stored: np.ndarray  # (SINKS,) J
+    touching: np.ndarray  # (1,) shoes on the ground
+
+
+def tracks(vehicle, rows):
+    """Return the record for the vehicle.
+
+    Raises
+    ------
+    layout.TrackDoesNotFit
+        The links do not close round the running gear.
+    """
+    travel = fit_idler(vehicle)
+    return Tracks(
+        chain(vehicle, rows),
+        ground(vehicle),
+        wheels(vehicle, rows),
+        sprockets(vehicle, rows),
+        tensioner(vehicle, travel, idler_load(vehicle, travel)),
+    )
+
+
+def new_track_state(tracks):
+    """Return the state of tracks that are not laid yet."""
+    slides = TensionerState(np.zeros(2), np.zeros(2))
+    return TrackState(new_nodes(), np.ones(tracks.wheels.row.shape, int), np.ones(2, int), slides)
+
+
+def new_track_work():
+    """Return working room."""
+    return TrackWork(new_node_work(), np.zeros(2), np.zeros(SINKS), np.zeros(SINKS), np.zeros(1))
+
+
+@kernel
+def add_tracks(tracks, state, tree_state, road, motion, cuts, work, dt):
+    """Add the forces of both tracks to the bodies of the tree, and prepare those on their own nodes.
+
+    The shear of the ground under the shoes is advanced by dt.
+    """
+    work.heat[:] = 0.0
+    work.stored[:] = 0.0
+    work.touching[0] = 0.0
+    hull, n = tracks.chain.hull, tracks.chain.links
+    for side in range(2):
+        nodes = work.nodes[side]
+        see_from_hull(tracks.chain, state.nodes[side], motion, nodes)
+        heat, stored = add_links(tracks.chain, nodes)
+        work.heat[LINKS] += heat
+        work.stored[LINKS] += stored
+        _add_wheels(tracks, state, side, motion, cuts, work)
+        rear = find_rear(nodes, state.rear[side], n)
+        state.rear[side] = rear
+        row = tracks.sprockets.row[side]
+        hub = hub_of(motion, hull, row)
+        force, moment, heat, stored = add_sprocket(tracks.sprockets, hub, tree_state.hinge[row], rear, n, nodes)
+        push_wheel(cuts, motion, hull, row, force, moment)
+        work.heat[TEETH] += heat
+        work.stored[TEETH] += stored
+        _add_ground(tracks, state, side, road, work, dt)
+
+
+@kernel
+def _add_wheels(tracks, state, side, motion, cuts, work):
+    wheels, hull, n = tracks.wheels, tracks.chain.hull, tracks.chain.links
+    nodes = work.nodes[side]
+    for k in range(wheels.row.shape[1]):
+        row = wheels.row[side, k]
+        hub = hub_of(motion, hull, row)
+        run = wheels.run[side, k]
+        if run == IDLERS:
+            travel, rate = state.tensioner.travel[side], state.tensioner.rate[side]
+            hub = Hub(hub.x + travel, hub.y, hub.z, hub.vx + rate, hub.vy, hub.vz, hub.spin)
+        link = find_link(run, hub.x, nodes, state.link[side, k], n)
+        state.link[side, k] = link
+        force, moment, heat, stored = add_wheel(wheels, side, k, hub, link, n, nodes)
+        push_wheel(cuts, motion, hull, row, force, moment)
+        work.heat[RIMS] += heat
+        work.stored[RIMS] += stored
+        if run == IDLERS:
+            work.push[side] = force[0]
+            heat, stored = slide_energy(tracks.tensioner, state.tensioner, side)
+            work.heat[TENSIONERS] += heat
+            work.stored[TENSIONERS] += stored
+
+
+@kernel
+def _add_ground(tracks, state, side, road, work, dt):
+    """Only the lower run, from the rearmost node forward to the idler, can touch the ground."""
+    n, height = tracks.chain.links, road.height[side]
+    begin, end = state.rear[side], state.link[side, tracks.wheels.row.shape[1] - 1] + 1
+    if begin < end:
+        _add_stretch(tracks, state, side, height, road, begin, end, work, dt)
+    else:
+        _add_stretch(tracks, state, side, height, road, begin, n + 1, work, dt)
+        _add_stretch(tracks, state, side, height, road, 1, end, work, dt)
+
+
+@kernel
+def _add_stretch(tracks, state, side, height, road, begin, end, work, dt):
+    nodes, forces = state.nodes[side], work.nodes[side]
+    heat, stored, touching = add_ground(
+        tracks.ground, nodes, height, road.first, road.spacing, begin, end, forces, dt
+    )
+    work.heat[GROUND] += heat
+    work.stored[GROUND] += stored
+    work.touching[0] += touching
+
+
+@kernel
+def move_tracks(tracks, state, motion, gravity, work, dt):
+    """Advance nodes and tensioners by dt."""
+    for side in range(2):
+        move_nodes(tracks.chain, state.nodes[side], motion, gravity, work.nodes[side], dt)
+        move_slide(tracks.tensioner, state.tensioner, side, work.push[side], dt)
+
+
+@kernel
+def wheel_below_road(tracks, road, motion):
+    """Return whether the hub of any road wheel lies below the road, where its links know no way out."""
+    for side in range(2):
+        for k in range(tracks.wheels.row.shape[1]):
+            if tracks.wheels.run[side, k] == ROAD_WHEELS:
+                hub = motion_vector(motion, ORIGIN, tracks.wheels.row[side, k])
+                if hub[2] < road_height(road, side, hub[0]):
+                    return True
+    return False
