@@ -9,7 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ...rui.compiled import kernel
-from .nodes import GROUND, SHEAR, STRIDE
+from .nodes import LOW, RISE, SAMPLE, STRIDE
+
+LEAST = 1e-9  # N, against division by zero where a shoe is not pulled at all
 
 
 class Ground(NamedTuple):
@@ -46,39 +48,44 @@ def add_ground(ground, nodes, heights, first, spacing, begin, end, work, dt):
     `heights` (m,) are the samples of the track's side from sample `first` on [m]. Returns the power turned into heat [W],
     the energy stored [J] and the number of shoes on the ground.
     """
-    heat, stored, touching = 0.0, 0.0, 0.0
+    # from here on the first node is number 0, so that indices are seen to be positive and loops become vectors
+    nodes, work, count = nodes[begin:], work[begin:], end - begin
+    for i in range(count):
+        work[SAMPLE * STRIDE + i] = np.floor(nodes[i] / spacing)
     last = len(heights) - 2
-    for i in range(begin, end):
-        place = nodes[i] / spacing
-        sample = np.floor(place)
-        k = int(sample) - first
-        k = min(max(k, 0), last)
-        low, rise = heights[k], heights[k + 1] - heights[k]
+    for i in range(count):
+        k = min(max(int(work[SAMPLE * STRIDE + i]) - first, 0), last)
+        work[LOW * STRIDE + i] = heights[k]
+        work[RISE * STRIDE + i] = heights[k + 1] - heights[k]
+    heat, stored, released, touching = 0.0, 0.0, 0.0, 0.0
+    k_n, c_n, k_s, c_s, mu = ground.stiffness, ground.damping, ground.shear_stiffness, ground.shear_damping, ground.friction
+    for i in range(count):
+        low, rise = work[LOW * STRIDE + i], work[RISE * STRIDE + i]
         slope = rise / spacing
-        vx, vy, vz = nodes[3 * STRIDE + i], nodes[4 * STRIDE + i], nodes[5 * STRIDE + i]
         cosine = 1.0 / np.sqrt(1.0 + slope * slope)
-        depth = (low + (place - sample) * rise - nodes[2 * STRIDE + i]) * cosine
-        up, ahead = (vz - slope * vx) * cosine, (vx + slope * vz) * cosine
+        sine = slope * cosine
+        depth = (low + (nodes[i] / spacing - work[SAMPLE * STRIDE + i]) * rise - nodes[2 * STRIDE + i]) * cosine
+        vx, vy, vz = nodes[3 * STRIDE + i], nodes[4 * STRIDE + i], nodes[5 * STRIDE + i]
+        up, ahead = cosine * vz - sine * vx, cosine * vx + sine * vz
         on = 1.0 if depth > 0.0 else 0.0
-        spring = on * ground.stiffness * depth
-        normal = on * max(spring - ground.damping * up, 0.0)
+        spring = on * k_n * depth
+        normal = on * max(spring - c_n * up, 0.0)
         shear_x, shear_y = nodes[6 * STRIDE + i], nodes[7 * STRIDE + i]
         before = shear_x * shear_x + shear_y * shear_y
-        pull_x = ground.shear_stiffness * (shear_x + dt * ahead) + ground.shear_damping * ahead
-        pull_y = ground.shear_stiffness * (shear_y + dt * vy) + ground.shear_damping * vy
-        limit, size = ground.friction * normal, np.sqrt(pull_x * pull_x + pull_y * pull_y)
-        cut = limit / max(size, 1e-300) if size > limit else 1.0
+        pull_x = k_s * (shear_x + dt * ahead) + c_s * ahead
+        pull_y = k_s * (shear_y + dt * vy) + c_s * vy
+        cut = min(mu * normal / (np.sqrt(pull_x * pull_x + pull_y * pull_y) + LEAST), 1.0)
         pull_x, pull_y = cut * pull_x, cut * pull_y
-        shear_x = on * (pull_x - ground.shear_damping * ahead) / ground.shear_stiffness
-        shear_y = on * (pull_y - ground.shear_damping * vy) / ground.shear_stiffness
+        shear_x = on * (pull_x - c_s * ahead) / k_s
+        shear_y = on * (pull_y - c_s * vy) / k_s
         nodes[6 * STRIDE + i] = shear_x
         nodes[7 * STRIDE + i] = shear_y
-        work[9 * STRIDE + i] = -cosine * (slope * normal + pull_x)
+        work[9 * STRIDE + i] = -sine * normal - cosine * pull_x
         work[10 * STRIDE + i] = -pull_y
-        work[11 * STRIDE + i] = cosine * (normal - slope * pull_x)
+        work[11 * STRIDE + i] = cosine * normal - sine * pull_x
         after = shear_x * shear_x + shear_y * shear_y
         heat += up * (spring - normal) + pull_x * ahead + pull_y * vy
-        heat -= 0.5 * ground.shear_stiffness * (after - before) / dt
-        stored += 0.5 * (spring * depth + ground.shear_stiffness * after)
+        stored += 0.5 * (spring * depth + k_s * after)
+        released += before - after
         touching += on
-    return heat, stored, touching
+    return heat + 0.5 * k_s * released / dt, stored, touching

@@ -37,7 +37,10 @@ TENSION = 18  # of link i, N
 SHORTNESS = 19  # 1 / length of link i, 1/m
 PIN_MOMENT = 20  # of link i on link i - 1, N m
 LINK_FORCE = 23  # of link i on node i, N
-NODE_WORK = 26
+SAMPLE = 26  # number of the road's sample behind the node
+LOW = 27  # its height, m
+RISE = 28  # from it to the next, m
+NODE_WORK = 29
 
 
 class Chain(NamedTuple):
