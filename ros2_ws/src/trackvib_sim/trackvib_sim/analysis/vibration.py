@@ -17,7 +17,9 @@ def band_limited(acceleration, rate):
     Second-order Butterworth high-pass, run forwards and backwards; the upper end of the band is the Nyquist frequency.
     """
     sections = signal.butter(2, LOWEST, "highpass", fs=rate, output="sos")
-    return signal.sosfiltfilt(sections, acceleration, axis=0)
+    # mirrored at the ends: an odd continuation would turn about the last value, which is mostly vibration
+    ends = min(len(acceleration) - 1, round(2.0 * rate / LOWEST))
+    return signal.sosfiltfilt(sections, acceleration, axis=0, padtype="even", padlen=ends)
 
 
 def rms(acceleration):

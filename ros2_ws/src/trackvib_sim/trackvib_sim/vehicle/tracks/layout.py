@@ -104,14 +104,13 @@ def _taut_line(vehicle, travel):
 
 
 def _walk(vehicle, line, start):
-    """Arc lengths (n + 1,) of pins whose straight distance is that of a link at pretension."""
+    """Arc lengths (n + 1,) of pins whose straight distance is the pitch."""
     t = vehicle.tracks
-    link = t.pitch + t.pretension / t.link_stiffness
     arc = np.empty(int(t.links) + 1)
     arc[0] = start
     for i in range(len(arc) - 1):
-        here, there = line.at(arc[i]), arc[i] + link
+        here, there = line.at(arc[i]), arc[i] + t.pitch
         for _ in range(_REFINEMENTS):
-            there += link - np.hypot(*(line.at(there) - here))
+            there += t.pitch - np.hypot(*(line.at(there) - here))
         arc[i + 1] = there
     return arc

@@ -66,7 +66,7 @@ def chain(vehicle, rows):
         shoe_mass=t.shoe_mass,
         stiffness=t.link_stiffness,
         damping=t.link_damping,
-        free_length=t.pitch,
+        free_length=t.pitch - t.pretension / t.link_stiffness,
         pin_stiffness=t.pin_stiffness,
         sideways_stiffness=t.sideways_stiffness,
         pin_damping=t.pin_damping,
