@@ -13,8 +13,8 @@ import numpy as np
 
 from ...rui.compiled import kernel
 from ..body_tree import SIDES, SPROCKET
-from .nodes import STRIDE
-from .wheels import MOST_MOVES
+from .nodes import CONTACT, STRIDE
+from .wheels import HEAT, MOST_MOVES, STORED, add_reaction
 
 
 class Sprockets(NamedTuple):
@@ -73,16 +73,13 @@ def find_rear(work, i, n):
 
 
 @kernel
-def add_sprocket(sprockets, hub, angle, rear, n, work):
-    """Add the teeth's forces to the pins around the rearmost node.
+def add_sprocket(sprockets, hub, angle, rear, n, work, load):
+    """Add the teeth's forces to the pins around the rearmost node, and their reactions to `load` (wheels.LOAD,).
 
-    `angle` [rad] is that of the sprocket in the hull. Returns as `wheels.add_wheel`.
+    `angle` [rad] is that of the sprocket in the hull.
     """
     s = sprockets
     share = 2.0 * np.pi / s.teeth
-    force_x, force_y, force_z = 0.0, 0.0, 0.0
-    moment_x, moment_y, moment_z = 0.0, 0.0, 0.0
-    heat, stored = 0.0, 0.0
     i = rear - s.teeth // 2 - 1
     i = i + n if i < 1 else i
     for _ in range(s.teeth + 3):
@@ -95,19 +92,16 @@ def add_sprocket(sprockets, hub, angle, rear, n, work):
             off = np.arctan2(-dz, dx) - angle
             off -= share * np.floor(off / share + 0.5)
             turn = 1.0 if off > 0.0 else -1.0
-            vx, vy, vz = work[3 * STRIDE + i] - hub.vx, work[4 * STRIDE + i] - hub.vy, work[5 * STRIDE + i] - hub.vz
-            sideways = work[STRIDE + i] - hub.y
+            vx, vz = work[3 * STRIDE + i] - hub.vx, work[5 * STRIDE + i] - hub.vz
             outwards = vx * rx + vz * rz
             along = vx * rz - vz * rx - hub.spin * distance
             radial, tangential = 0.0, 0.0
-            seat, above = s.pitch_radius - distance, 0.0
+            seat = s.pitch_radius - distance
             if seat > 0.0:
                 radial = max(0.0, s.stiffness * seat - s.damping * outwards)
-                heat += outwards * (s.stiffness * seat - radial)
-                stored += 0.5 * s.stiffness * seat * seat
-            else:
-                above = -seat
-            flank = (abs(off) * distance - s.backlash - s.slope * above) * s.cosine
+                load[HEAT] += outwards * (s.stiffness * seat - radial)
+                load[STORED] += 0.5 * s.stiffness * seat * seat
+            flank = (abs(off) * distance - s.backlash - s.slope * max(-seat, 0.0)) * s.cosine
             if flank > 0.0:
                 # gradient of the flank's depth with distance; along the circumference it is the cosine
                 opening = abs(off) * s.cosine - (s.sine if seat <= 0.0 else 0.0)
@@ -115,21 +109,16 @@ def add_sprocket(sprockets, hub, angle, rear, n, work):
                 push = max(0.0, s.stiffness * flank + s.damping * closing)
                 tangential = -turn * s.cosine * push
                 radial -= opening * push
-                heat += closing * (push - s.stiffness * flank)
-                stored += 0.5 * s.stiffness * flank * flank
+                load[HEAT] += closing * (push - s.stiffness * flank)
+                load[STORED] += 0.5 * s.stiffness * flank * flank
             if radial != 0.0 or tangential != 0.0:
-                fx, fz = radial * rx + tangential * rz, radial * rz - tangential * rx
-                fy = -s.guide_stiffness * sideways - s.guide_damping * vy
-                heat += s.guide_damping * vy * vy
-                stored += 0.5 * s.guide_stiffness * sideways * sideways
-                work[6 * STRIDE + i] += fx
-                work[7 * STRIDE + i] += fy
-                work[8 * STRIDE + i] += fz
-                force_x -= fx
-                force_y -= fy
-                force_z -= fz
-                moment_x -= sideways * fz - dz * fy
-                moment_y -= dz * fx - dx * fz
-                moment_z -= dx * fy - sideways * fx
+                sideways = work[STRIDE + i] - hub.y
+                vy = work[4 * STRIDE + i] - hub.vy - hub.yaw * dx + hub.roll * dz
+                guide = s.guide_stiffness * sideways + s.guide_damping * vy
+                load[HEAT] += s.guide_damping * vy * vy
+                load[STORED] += 0.5 * s.guide_stiffness * sideways * sideways
+                force = (radial * rx + tangential * rz, -guide, radial * rz - tangential * rx)
+                for axis in range(3):
+                    work[(CONTACT + axis) * STRIDE + i] += force[axis]
+                add_reaction(load, (dx, sideways, dz), force)
         i = i + 1 if i < n else 1
-    return (force_x, force_y, force_z), (moment_x, moment_y, moment_z), heat, stored

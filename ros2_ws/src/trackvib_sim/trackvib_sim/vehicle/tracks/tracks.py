@@ -11,7 +11,21 @@ from .layout import fit_idler, idler_load
 from .nodes import Chain, add_links, chain, move_nodes, new_node_work, new_nodes, see_from_hull
 from .sprockets import Sprockets, add_sprocket, find_rear, sprockets
 from .tensioner import Tensioner, TensionerState, move_slide, slide_energy, tensioner
-from .wheels import IDLERS, ROAD_WHEELS, Hub, Wheels, add_wheel, find_link, hub_of, push_wheel, wheels
+from .wheels import (
+    FORCE,
+    HEAT,
+    IDLERS,
+    LOAD,
+    MOMENT,
+    ROAD_WHEELS,
+    STORED,
+    Wheels,
+    add_wheel,
+    find_link,
+    hub_of,
+    push_body,
+    wheels,
+)
 
 LINKS, GROUND, RIMS, TEETH, TENSIONERS = range(5)  # where energy goes
 SINKS = 5
@@ -40,6 +54,7 @@ class TrackWork(NamedTuple):
     """Room for the intermediate results of a step."""
 
     nodes: np.ndarray  # (2, NODE_WORK STRIDE)
+    load: np.ndarray  # (LOAD,) of one wheel
     push: np.ndarray  # (2,) of the track on the idler along the hull's x axis, N
     heat: np.ndarray  # (SINKS,) W
     stored: np.ndarray  # (SINKS,) J
@@ -72,7 +87,7 @@ def new_track_state(tracks):
 
 def new_track_work():
     """Return working room."""
-    return TrackWork(new_node_work(), np.zeros(2), np.zeros(SINKS), np.zeros(SINKS), np.zeros(1))
+    return TrackWork(new_node_work(), np.zeros(LOAD), np.zeros(2), np.zeros(SINKS), np.zeros(SINKS), np.zeros(1))
 
 
 @kernel
@@ -84,7 +99,6 @@ def add_tracks(tracks, state, tree_state, road, motion, cuts, work, dt):
     work.heat[:] = 0.0
     work.stored[:] = 0.0
     work.touching[0] = 0.0
-    hull, n = tracks.chain.hull, tracks.chain.links
     for side in range(2):
         nodes = work.nodes[side]
         see_from_hull(tracks.chain, state.nodes[side], motion, nodes)
@@ -92,39 +106,51 @@ def add_tracks(tracks, state, tree_state, road, motion, cuts, work, dt):
         work.heat[LINKS] += heat
         work.stored[LINKS] += stored
         _add_wheels(tracks, state, side, motion, cuts, work)
-        rear = find_rear(nodes, state.rear[side], n)
-        state.rear[side] = rear
-        row = tracks.sprockets.row[side]
-        hub = hub_of(motion, hull, row)
-        force, moment, heat, stored = add_sprocket(tracks.sprockets, hub, tree_state.hinge[row], rear, n, nodes)
-        push_wheel(cuts, motion, hull, row, force, moment)
-        work.heat[TEETH] += heat
-        work.stored[TEETH] += stored
+        _add_sprocket(tracks, state, side, tree_state, motion, cuts, work)
         _add_ground(tracks, state, side, road, work, dt)
 
 
 @kernel
 def _add_wheels(tracks, state, side, motion, cuts, work):
-    wheels, hull, n = tracks.wheels, tracks.chain.hull, tracks.chain.links
-    nodes = work.nodes[side]
+    wheels, hull, n, load = tracks.wheels, tracks.chain.hull, tracks.chain.links, work.load
     for k in range(wheels.row.shape[1]):
-        row = wheels.row[side, k]
-        hub = hub_of(motion, hull, row)
-        run = wheels.run[side, k]
+        row, run = wheels.row[side, k], wheels.run[side, k]
+        travel, rate = 0.0, 0.0
         if run == IDLERS:
             travel, rate = state.tensioner.travel[side], state.tensioner.rate[side]
-            hub = Hub(hub.x + travel, hub.y, hub.z, hub.vx + rate, hub.vy, hub.vz, hub.spin)
-        link = find_link(run, hub.x, nodes, state.link[side, k], n)
+        hub = hub_of(motion, hull, row, travel, rate)
+        link = find_link(run, hub.x, work.nodes[side], state.link[side, k], n)
         state.link[side, k] = link
-        force, moment, heat, stored = add_wheel(wheels, side, k, hub, link, n, nodes)
-        push_wheel(cuts, motion, hull, row, force, moment)
-        work.heat[RIMS] += heat
-        work.stored[RIMS] += stored
+        load[:] = 0.0
+        add_wheel(wheels, side, k, hub, link, n, work.nodes[side], load)
+        push_body(cuts, motion, hull, row, load)
+        work.heat[RIMS] += load[HEAT]
+        work.stored[RIMS] += load[STORED]
         if run == IDLERS:
-            work.push[side] = force[0]
+            work.push[side] = load[FORCE]
             heat, stored = slide_energy(tracks.tensioner, state.tensioner, side)
             work.heat[TENSIONERS] += heat
             work.stored[TENSIONERS] += stored
+            # the rim's force acts at the shifted hub; the slide carries its moment about the idler's own place
+            for axis in range(3):
+                load[MOMENT + axis] = 0.0
+            load[MOMENT + 1], load[MOMENT + 2] = -travel * load[FORCE + 2], travel * load[FORCE + 1]
+            for axis in range(3):
+                load[FORCE + axis] = 0.0
+            push_body(cuts, motion, hull, hull, load)
+
+
+@kernel
+def _add_sprocket(tracks, state, side, tree_state, motion, cuts, work):
+    hull, n, load, row = tracks.chain.hull, tracks.chain.links, work.load, tracks.sprockets.row[side]
+    rear = find_rear(work.nodes[side], state.rear[side], n)
+    state.rear[side] = rear
+    hub = hub_of(motion, hull, row, 0.0, 0.0)
+    load[:] = 0.0
+    add_sprocket(tracks.sprockets, hub, tree_state.hinge[row], rear, n, work.nodes[side], load)
+    push_body(cuts, motion, hull, row, load)
+    work.heat[TEETH] += load[HEAT]
+    work.stored[TEETH] += load[STORED]
 
 
 @kernel

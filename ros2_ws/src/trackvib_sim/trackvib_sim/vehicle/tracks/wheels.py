@@ -13,9 +13,9 @@ import numpy as np
 from ...rui.compiled import inlined, kernel
 from ...rui.cuts import apply_wrench
 from ...rui.kinematics import HINGE_AXIS, ORIGIN, RATE, VELOCITY, body_axes, motion_vector, rotation
-from ...rui.spatial import dot, rotate, subtract
+from ...rui.spatial import cross, dot, rotate, subtract, vector
 from ..body_tree import IDLER, ROLLER, SIDES, STATIONS, wheel_name
-from .nodes import STRIDE
+from .nodes import CONTACT, STRIDE
 
 ROAD_WHEELS, ROLLERS, IDLERS = 1.0, -1.0, 0.0  # sign of x along the chain where the wheel touches it; 0: its front end
 CREEP = 0.1  # m/s, slip at which friction has 71 % of its limit
@@ -46,6 +46,14 @@ class Hub(NamedTuple):
     vy: float
     vz: float
     spin: float  # rad/s about the axle, positive forward
+    roll: float  # rad/s of the hull
+    yaw: float
+
+
+# what a track does to a wheel, by place in an array: force [N] and moment about the hub [N m] in hull axes, then the power
+# turned into heat [W] and the energy stored [J] in the contact
+FORCE, MOMENT, HEAT, STORED = 0, 3, 6, 7
+LOAD = 8
 
 
 def wheels(vehicle, rows):
@@ -78,12 +86,14 @@ def wheels(vehicle, rows):
 
 
 @inlined
-def hub_of(motion, hull, row):
-    """Return the `Hub` of a wheel."""
+def hub_of(motion, hull, row, travel, rate):
+    """Return the `Hub` of a wheel that is shifted along the hull's x axis by `travel` [m], at a `rate` [m/s]."""
     place = body_axes(motion, hull, subtract(motion_vector(motion, ORIGIN, row), motion_vector(motion, ORIGIN, hull)))
     velocity = body_axes(motion, hull, motion_vector(motion, VELOCITY, row))
+    turn = body_axes(motion, hull, motion_vector(motion, RATE, hull))
     spin = dot(motion_vector(motion, RATE, row), motion_vector(motion, HINGE_AXIS, row))
-    return Hub(place[0], place[1], place[2], velocity[0], velocity[1], velocity[2], spin)
+    shifted = (velocity[0] + rate, velocity[1] + turn[2] * travel, velocity[2] - turn[1] * travel)
+    return Hub(place[0] + travel, place[1], place[2], shifted[0], shifted[1], shifted[2], spin, turn[0], turn[2])
 
 
 @kernel
@@ -105,71 +115,73 @@ def find_link(run, x, work, i, n):
 
 
 @kernel
-def add_wheel(wheels, side, k, hub, link, n, work):
-    """Add one wheel's contact forces to the nodes around its link.
+def add_wheel(wheels, side, k, hub, link, n, work, load):
+    """Add one wheel's contact forces to the nodes around its link, and their reactions to `load` (LOAD,).
 
-    Returns the force on the wheel [N] and its moment about the hub [N m], hull axes, the power turned into heat [W] and
-    the energy stored [J].
+    Where the chain bends round the wheel, the feet on two links can lie inside both of them: their common pin then counts
+    once less. Where it bends away, a foot can lie in neither: the pin counts by itself. So the force is that of one
+    rim, and steady.
     """
-    radius, stiffness, damping = wheels.radius[side, k], wheels.stiffness[side, k], wheels.damping[side, k]
-    force_x, force_y, force_z = 0.0, 0.0, 0.0
-    moment_x, moment_y, moment_z = 0.0, 0.0, 0.0
-    heat, stored = 0.0, 0.0
-    window = wheels.window[side, k]
+    radius, window = wheels.radius[side, k], wheels.window[side, k]
     i = link - window
     i = i + n if i < 1 else i
-    beyond = False  # whether the foot lies beyond the end of the link before
+    inside, beyond = False, False  # whether the foot lay inside the link before, or beyond its end
     for _ in range(2 * window + 1):
         ax, az = work[i] - hub.x, work[2 * STRIDE + i] - hub.z
         ux, uz = work[i + 1] - work[i], work[2 * STRIDE + i + 1] - work[2 * STRIDE + i]
         along, square = -(ax * ux + az * uz), ux * ux + uz * uz
-        touches, share = False, 0.0
-        if along < 0.0:
-            touches = beyond and ax * ax + az * az < radius * radius
-        elif along < square:
-            across = ax * uz - az * ux
-            touches = across * across < radius * radius * square
-            share = along / square
-        beyond = along >= square
-        j = i + 1 if i < n else 1
-        if touches:
-            dx, dz = ax + share * ux, az + share * uz
-            distance = np.sqrt(dx * dx + dz * dz)
-            nx, nz = dx / distance, dz / distance
-            depth = radius - distance
-            rest = 1.0 - share
-            vx = rest * work[3 * STRIDE + i] + share * work[3 * STRIDE + j] - hub.vx
-            vy = rest * work[4 * STRIDE + i] + share * work[4 * STRIDE + j] - hub.vy
-            vz = rest * work[5 * STRIDE + i] + share * work[5 * STRIDE + j] - hub.vz
-            sideways = rest * work[STRIDE + i] + share * work[STRIDE + j] - hub.y
-            leaving = vx * nx + vz * nz
-            normal = max(0.0, stiffness * depth - damping * leaving)
-            # the rim moves along (nz, -nx) when the wheel rolls forward
-            slip = vx * nz - vz * nx - hub.spin * distance
-            drag = wheels.friction[side, k] * normal * slip / np.sqrt(slip * slip + CREEP * CREEP)
-            guide = wheels.guide_stiffness[side, k] * sideways + wheels.guide_damping[side, k] * vy
-            fx, fy, fz = normal * nx - drag * nz, -guide, normal * nz + drag * nx
-            work[6 * STRIDE + i] += rest * fx
-            work[7 * STRIDE + i] += rest * fy
-            work[8 * STRIDE + i] += rest * fz
-            work[6 * STRIDE + j] += share * fx
-            work[7 * STRIDE + j] += share * fy
-            work[8 * STRIDE + j] += share * fz
-            force_x -= fx
-            force_y -= fy
-            force_z -= fz
-            # moment of -f at (dx, sideways, dz)
-            moment_x -= sideways * fz - dz * fy
-            moment_y -= dz * fx - dx * fz
-            moment_z -= dx * fy - sideways * fx
-            heat += leaving * (stiffness * depth - normal) + drag * slip + wheels.guide_damping[side, k] * vy * vy
-            stored += 0.5 * (stiffness * depth * depth + wheels.guide_stiffness[side, k] * sideways * sideways)
-        i = j
-    return (force_x, force_y, force_z), (moment_x, moment_y, moment_z), heat, stored
+        across = ax * uz - az * ux
+        within = 0.0 <= along < square
+        if ax * ax + az * az < radius * radius:
+            if beyond and along < 0.0:
+                _press(wheels, side, k, hub, 0.0, 1.0, i, n, work, load)
+            elif inside and within:
+                _press(wheels, side, k, hub, 0.0, -1.0, i, n, work, load)
+        if within and across * across < radius * radius * square:
+            _press(wheels, side, k, hub, along / square, 1.0, i, n, work, load)
+        inside, beyond = within, along >= square
+        i = i + 1 if i < n else 1
 
 
 @kernel
-def push_wheel(cuts, motion, hull, row, force, moment):
-    """Apply a force and a moment about the hub, hull axes, to a wheel."""
+def _press(wheels, side, k, hub, share, weight, i, n, work, load):
+    """Add `weight` times the contact of a rim with link i at a part `share` of its length."""
+    stiffness, guide_damping = wheels.stiffness[side, k], wheels.guide_damping[side, k]
+    j, rest = i + 1 if i < n else 1, 1.0 - share
+    dx = rest * work[i] + share * work[j] - hub.x
+    sideways = rest * work[STRIDE + i] + share * work[STRIDE + j] - hub.y
+    dz = rest * work[2 * STRIDE + i] + share * work[2 * STRIDE + j] - hub.z
+    vx = rest * work[3 * STRIDE + i] + share * work[3 * STRIDE + j] - hub.vx
+    vy = rest * work[4 * STRIDE + i] + share * work[4 * STRIDE + j] - hub.vy - hub.yaw * dx + hub.roll * dz
+    vz = rest * work[5 * STRIDE + i] + share * work[5 * STRIDE + j] - hub.vz
+    distance = np.sqrt(dx * dx + dz * dz)
+    nx, nz = dx / distance, dz / distance
+    depth, leaving = wheels.radius[side, k] - distance, vx * nx + vz * nz
+    normal = max(0.0, stiffness * depth - wheels.damping[side, k] * leaving)
+    # the rim moves along (nz, -nx) when the wheel rolls forward
+    slip = vx * nz - vz * nx - hub.spin * distance
+    drag = wheels.friction[side, k] * normal * slip / np.sqrt(slip * slip + CREEP * CREEP)
+    guide = wheels.guide_stiffness[side, k] * sideways + guide_damping * vy
+    force = (weight * (normal * nx - drag * nz), -weight * guide, weight * (normal * nz + drag * nx))
+    for axis in range(3):
+        work[(CONTACT + axis) * STRIDE + i] += rest * force[axis]
+        work[(CONTACT + axis) * STRIDE + j] += share * force[axis]
+    add_reaction(load, (dx, sideways, dz), force)
+    load[HEAT] += weight * (leaving * (stiffness * depth - normal) + drag * slip + guide_damping * vy * vy)
+    load[STORED] += weight * 0.5 * (stiffness * depth * depth + wheels.guide_stiffness[side, k] * sideways * sideways)
+
+
+@inlined
+def add_reaction(load, lever, force):
+    """Add to `load` what a force [N] on a node does to the wheel, `lever` [m] being the node's place from the hub."""
+    moment = cross(lever, force)
+    for axis in range(3):
+        load[FORCE + axis] -= force[axis]
+        load[MOMENT + axis] -= moment[axis]
+
+
+@kernel
+def push_body(cuts, motion, hull, row, load):
+    """Apply `load` to a body, about its own origin."""
     turn = rotation(motion, hull)
-    apply_wrench(cuts, row, rotate(turn, force), rotate(turn, moment))
+    apply_wrench(cuts, row, rotate(turn, vector(load[FORCE:])), rotate(turn, vector(load[MOMENT:])))
