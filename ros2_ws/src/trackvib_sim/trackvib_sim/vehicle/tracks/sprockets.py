@@ -2,8 +2,9 @@
 
 A pin between two teeth rests on the seat, at the pitch circle, and is driven by a flank. Flanks are straight and open
 outwards by the flank angle; between pin and flank there is backlash. A pin that comes in on the taut track must pass
-the tip of the tooth: with steep flanks, or with a track pitch that differs from the sprocket's, it strikes it. That, at the
-link-passing frequency v/p, is the strongest excitation of the vehicle.
+the tip of the tooth, and with a sprocket pitch other than the track's the load jumps from tooth to tooth. That, at the
+link-passing frequency v/p, is the strongest excitation of the vehicle. Every force but damping is the gradient of a
+potential without jumps, so that teeth make no energy.
 """
 
 from math import pi, radians, sin
@@ -103,14 +104,17 @@ def add_sprocket(sprockets, hub, angle, rear, n, work, load):
                 load[STORED] += 0.5 * s.stiffness * seat * seat
             flank = (abs(off) * distance - s.backlash - s.slope * max(-seat, 0.0)) * s.cosine
             if flank > 0.0:
-                # gradient of the flank's depth with distance; along the circumference it is the cosine
-                opening = abs(off) * s.cosine - (s.sine if seat <= 0.0 else 0.0)
-                closing = turn * s.cosine * along + opening * outwards
-                push = max(0.0, s.stiffness * flank + s.damping * closing)
-                tangential = -turn * s.cosine * push
+                depth, edge = flank, s.tip_radius - distance
+                # gradient of the depth along the circumference and with distance
+                across, opening = turn * s.cosine, abs(off) * s.cosine - (s.sine if seat <= 0.0 else 0.0)
+                if edge < flank:  # a pin that misses the gap meets the tip
+                    depth, across, opening = edge, 0.0, -1.0
+                closing = across * along + opening * outwards
+                push = max(0.0, s.stiffness * depth + s.damping * closing)
+                tangential = -across * push
                 radial -= opening * push
-                load[HEAT] += closing * (push - s.stiffness * flank)
-                load[STORED] += 0.5 * s.stiffness * flank * flank
+                load[HEAT] += closing * (push - s.stiffness * depth)
+                load[STORED] += 0.5 * s.stiffness * depth * depth
             if radial != 0.0 or tangential != 0.0:
                 sideways = work[STRIDE + i] - hub.y
                 vy = work[4 * STRIDE + i] - hub.vy - hub.yaw * dx + hub.roll * dz
