@@ -16,6 +16,7 @@ setup(
         ("share/ament_index/resource_index/packages", [f"resource/{name}"]),
         (f"share/{name}", ["package.xml"]),
         (f"share/{name}/config", glob("config/*.yaml")),
+        (f"share/{name}/config/reference", glob("config/reference/*.csv")),
         (f"share/{name}/launch", glob("launch/*.launch.py")),
     ],
     install_requires=[

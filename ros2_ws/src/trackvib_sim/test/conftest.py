@@ -8,7 +8,6 @@ import pytest
 from hypothesis import settings
 from scipy.spatial.transform import Rotation
 from trackvib_sim.installed import default_vehicle_file
-from trackvib_sim.road.store import Road
 from trackvib_sim.rui.cells import columns
 from trackvib_sim.rui.cuts import CUT, FORCE, MOMENT, TORQUE, new_cuts, open_cuts
 from trackvib_sim.rui.kinematics import new_motion, update_motion
@@ -59,12 +58,6 @@ def changed(vehicle):
         return vehicle.model_copy(update={section: getattr(vehicle, section).model_copy(update=items)})
 
     return change
-
-
-@pytest.fixture(scope="session")
-def level_road():
-    """40 m of level road around the origin."""
-    return Road(-400, 0.05, np.zeros((2, 801)))
 
 
 @pytest.fixture(scope="session")
@@ -245,9 +238,9 @@ def level():
 def simulation(vehicle):
     """A function that returns a new simulation."""
 
-    def make(speed=10.0, engine_speed=0.0, physics=10_000, imposed=False, vehicle=vehicle):
-        operation = Operation(speed, engine_speed, imposed)
-        return Simulation(vehicle, RunSettings(operation, Rates(physics=physics), 1.0))
+    def make(speed=10.0, engine_speed=0.0, physics=10_000, imposed=False, phase=0.0, vehicle=vehicle, probes=()):
+        operation = Operation(speed, engine_speed, imposed, phase)
+        return Simulation(vehicle, RunSettings(operation, Rates(physics=physics), 1.0), probes)
 
     return make
 

@@ -1,4 +1,4 @@
-"""The closed loop in one process: reproducible, converged, symmetric, and measured as real sensors would."""
+"""The closed loop in one process: reproducible, and measured as real sensors would."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,6 @@ from mr_mount_controller.laws.passive import Passive
 from mr_mount_controller.laws.skyhook import Skyhook
 from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
-from trackvib_sim.analysis.vibration import band_limited, rms
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.rui.kinematics import new_motion, point_place, point_velocity, rotation, update_motion
 from trackvib_sim.simulation.closed_loop import run_closed_loop
@@ -25,8 +24,8 @@ def rough():
 def run(simulation, rough):
     """A function that runs 10 m/s on the rough road with the engine at rated speed."""
 
-    def do(periods, law=Passive, physics=10_000):
-        return run_closed_loop(simulation(10.0, 1650.0, physics), rough, law(PERIOD), periods)
+    def do(periods, law=Passive):
+        return run_closed_loop(simulation(10.0, 1650.0), rough, law(PERIOD), periods)
 
     return do
 
@@ -52,15 +51,6 @@ def test_law_closes_the_loop(run):
     passive, skyhook = run(1500), run(1500, Skyhook)
     assert len(np.unique(skyhook.current)) == 2
     assert np.abs(passive.specific_force - skyhook.specific_force)[:, POWERTRAIN].max() > 0.1
-
-
-@pytest.mark.property
-def test_result_has_converged_in_the_step(run, reference):
-    """Half the physics step changes no RMS of the last three seconds by 5 % or more."""
-    finer = run(4000, physics=20_000)
-    for sensor in (CHASSIS, POWERTRAIN):
-        coarse, fine = (rms(band_limited(r.specific_force[:, sensor], 1000.0)[1000:]) for r in (reference, finer))
-        assert np.abs(fine / coarse - 1.0).max() < 0.05
 
 
 @pytest.mark.analytic
@@ -115,42 +105,6 @@ def test_sensors_are_those_of_an_inertial_navigator(simulation, rough):
         assert (got * expected.inv()).magnitude() < 1e-5
     assert_allclose(velocity, expected_velocity, atol=5e-3)
     assert np.abs(expected_velocity[:, 2]).max() > 0.02
-
-
-class Mirrored:
-    """A road with its sides swapped."""
-
-    def __init__(self, road):
-        self._road = road
-
-    def heights(self, first, count):
-        """Return the heights, right before left."""
-        return self._road.heights(first, count)[::-1]
-
-
-@pytest.mark.property
-def test_swapped_road_gives_the_mirrored_motion(simulation, rough):
-    """With the engine off, left and right swapped turn the lateral force and the rates about x and z round.
-
-    Both runs differ by rounding alone, 1e-16 of 1e6 N/m springs on 200 kg; contacts that come and go amplify it, by
-    less than 1e4 in two seconds.
-    """
-    one, other = (
-        run_closed_loop(simulation(10.0, 0.0), road, Passive(PERIOD), 2000) for road in (rough, Mirrored(rough))
-    )
-    assert_allclose(other.specific_force, one.specific_force * (1, -1, 1), rtol=0, atol=1e-6)
-    assert_allclose(other.rate, one.rate * (-1, 1, -1), rtol=0, atol=1e-8)
-    assert np.abs(one.specific_force[:, :, 1]).max() > 0.1
-
-
-@pytest.mark.property
-def test_vehicle_keeps_speed_and_lane(simulation, rough):
-    """Over four seconds of rough road the driver keeps the speed to 5 % and the lane to 0.2 m."""
-    moving = simulation(10.0, 1650.0)
-    run_closed_loop(moving, rough, Passive(PERIOD), 4000)
-    assert moving.distance == pytest.approx(40.0, rel=0.05)
-    assert moving.sample.hull_velocity[0, 0] == pytest.approx(10.0, rel=0.05)
-    assert abs(moving.state.tree.position[0, 1]) < 0.2
 
 
 @pytest.mark.analytic

@@ -2,13 +2,14 @@
 
 import signal
 import sys
-from math import isfinite
 
 import click
 from mr_mount_controller.laws import find_law, known_laws
 from mr_mount_controller.parameters import ParameterError
 
+from .option_types import FiniteRange
 from .road.iso8608 import CLASSES
+from .study_cli import study
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -23,16 +24,6 @@ def main():
 
 def _interrupt():
     raise KeyboardInterrupt
-
-
-class FiniteRange(click.FloatRange):
-    """A range of floats, to which "nan" does not belong (to click's own it does)."""
-
-    def convert(self, value, param, ctx):
-        number = super().convert(value, param, ctx)
-        if not isfinite(number):
-            self.fail(f"{value} is not in the range {self._describe_range()}.", param, ctx)
-        return number
 
 
 def _law(_context, _parameter, value):
@@ -85,6 +76,24 @@ def modes(current, highest, out):
         click.echo(f"error: {error}", err=True)
         sys.exit(1)
 
+
+@main.command()
+@click.option("--vehicle", type=click.Path(dir_okay=False), default=None,
+              help="Vehicle file.  [default: the one that comes with the package]")
+@click.option("--out", type=click.Path(dir_okay=False), default="vehicle.png", show_default=True,
+              help="Drawing of the vehicle.")
+def vehicle(vehicle, out):
+    """Print the vehicle's parameters with their sources, and draw it to scale."""
+    from .vehicle_drawing import perform  # imported late, as above
+
+    try:
+        perform(vehicle, out)
+    except (ValueError, OSError) as error:
+        click.echo(f"error: {error}", err=True)
+        sys.exit(1)
+
+
+main.add_command(study)
 
 if __name__ == "__main__":
     main(prog_name="trackvib")

@@ -11,14 +11,8 @@ from trackvib_sim.simulation.open_loop import run_open_loop
 from trackvib_sim.simulation.settings import Rates, RunSettings
 from trackvib_sim.simulation.simulation import Probe, Simulation
 from trackvib_sim.simulation.step import add_forces
-from trackvib_sim.studies.second_solver import (
-    PinocchioSimulation,
-    PinocchioTree,
-    added_loads,
-    put_back,
-    relative_difference,
-    solved,
-)
+from trackvib_sim.studies.pinocchio_tree import PinocchioTree, relative_difference
+from trackvib_sim.studies.second_solver import PinocchioSimulation, added_loads, put_back, solved
 from trackvib_sim.vehicle.system import Operation, new_work
 
 pytestmark = pytest.mark.cross_engine
@@ -39,7 +33,8 @@ def make(vehicle):
     """A function that makes a simulation of either kind at 10 m/s with the engine running and a probe on the turret."""
 
     def of(kind):
-        return kind(vehicle, RunSettings(Operation(10.0, 2100.0, True), Rates(), 1.0), (Probe("turret", (1.0, 0.5, 0.2)),))
+        probes = (Probe("turret", (1.0, 0.5, 0.2)),)
+        return kind(vehicle, RunSettings(Operation(10.0, 2100.0, True), Rates(), 1.0), probes)
 
     return of
 
@@ -96,20 +91,14 @@ def test_accelerations_written_back_are_read_alike(table, moments):
     moving, work = next(moments())
     tree = moving.system.tree
     theirs = PinocchioTree(table, GRAVITY).solve(to_table(tree, moving.state.tree), added_loads(tree, work))
-    assert not columns_are_set(work)
+    assert not work.response.cells.any()
     put_back(tree, work, theirs)
-    assert columns_are_set(work)
     for found, expected in zip(solved(tree, work), theirs, strict=True):
         assert_allclose(found, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
 
 
-def columns_are_set(work):
-    """Whether a response holds anything."""
-    return bool(work.response.cells.any())
-
-
 def test_a_short_run_stays_with_ours(make, rough):
-    """50 ms on a rough road: all sensors and the speed agree to 1e-6 of the largest, as rounding alone parts the runs."""
+    """50 ms on a rough road: all sensors and the speed agree to 1e-6 of the largest; rounding alone parts the runs."""
     ours = run_open_loop(make(Simulation), rough, 50)
     second = make(PinocchioSimulation)
     theirs = run_open_loop(second, rough, 50)

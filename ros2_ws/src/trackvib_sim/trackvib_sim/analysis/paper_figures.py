@@ -3,6 +3,8 @@
 Accelerations in body axes; labels name the paper's axes as well (paper X, Y, Z = x, z, y).
 """
 
+from itertools import pairwise, product
+
 import matplotlib
 
 matplotlib.use("Agg")  # files only: no display is needed
@@ -10,69 +12,67 @@ matplotlib.use("Agg")  # files only: no display is needed
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
-from ..road.iso8608 import HIGHEST, LOWEST, roughness  # noqa: E402
+from ..road.iso8608 import HIGHEST, LOWEST, SPACING, roughness  # noqa: E402
 from .plots import COLOURS  # noqa: E402
 from .vibration import psd  # noqa: E402
 
 AXES = ("longitudinal x (paper X)", "lateral y (paper Z)", "vertical z (paper Y)")
 VERTICAL = 2
+ROAD_TIME = 10.0  # s of a road that are drawn
+ROAD_LENGTH = 2000.0  # m of a road of which the spectrum is taken
 ZOOM = 0.25  # s, what a close look shows
-HIGHEST_DRAWN = 400.0  # Hz, in spectra
+HIGHEST_DRAWN = 500.0  # Hz, in spectra
 CLASS_BOUNDS = 2.0  # a class reaches from half to twice its geometric mean [ISO8608]
 SECOND = "black"  # colour of the second solver
 
 
-def road_picture(path, title, time, height, rate, long_height, road_class, speed):
-    """Draw a road profile against time, and its spectrum beside that of its class.
+def road_picture(path, title, road, speed):
+    """Draw the profile of a road as it comes at a speed, and its spectrum beside that of its class, to a PNG file.
 
     Parameters
     ----------
     path : path-like
-        PNG file to write, as in the other functions.
     title : str
-    time : (k,) array
-        s.
-    height : (2, k) array
-        Left and right profile, m.
-    rate : float
-        Samples a second at `speed` [m/s].
-    long_height : (2, m) array
-        A longer stretch, of which the spectrum is taken, m.
-    road_class : str
+    road : road.iso8608.Iso8608Road
+        Rough from distance 0 on.
     speed : float
+        m/s.
     """
-    figure, (history, spectrum) = _figure(title, (13, 4.6), 1, 2, width_ratios=(1.5, 1.0))
-    sides = zip(("left", "right"), COLOURS.values(), height, long_height, strict=True)
-    for side, colour, short, long in sides:
-        history.plot(time, 1e3 * short, color=colour, linewidth=1.0, label=side)
-        frequency, density = psd(long, rate, 1.0 / 20.0)
-        spectrum.loglog(frequency[1:], density[1:], color=colour, linewidth=0.8, alpha=0.8, label=side)
-    _label(history, "time, s", "height, mm", "profile")
-    history.set_xlim(time[0], time[-1])
+    rate = speed / SPACING  # samples a second
+    height = road.heights(0, int(ROAD_LENGTH / SPACING))
+    drawn = int(ROAD_TIME * rate)
     band = speed * np.array((LOWEST, HIGHEST))
-    line = roughness(road_class, band / speed) / speed
-    spectrum.loglog(band, line, color=SECOND, linewidth=1.5, label=f"ISO 8608, class {road_class}")
+    figure, (history, spectrum) = _figure(title, (13, 4.6), 1, 2, width_ratios=(1.5, 1.0))
+    for side, colour, profile in zip(("left", "right"), COLOURS.values(), height, strict=True):
+        history.plot(np.arange(drawn) / rate, 1e3 * profile[:drawn], color=colour, linewidth=1.0, label=side)
+        bands = _third_octaves(profile, rate, band)
+        spectrum.loglog(*bands, "o-", color=colour, markersize=4, linewidth=0.8, label=side)
+    _label(history, "time, s", "height, mm", "profile")
+    history.set_xlim(0.0, ROAD_TIME)
+    history.legend()
+    # G_d(f) = G_d(n) / v with f = n v
+    line = roughness(road.road_class, band / speed) / speed
+    spectrum.loglog(band, line, color=SECOND, linewidth=1.5, label=f"ISO 8608, class {road.road_class}")
     spectrum.fill_between(band, line / CLASS_BOUNDS, line * CLASS_BOUNDS, color="0.85", label="bounds of the class")
-    spectrum.set_xlim(0.5 * band[0], 2.0 * band[1])
-    spectrum.set_ylim(0.05 * line[1], 20.0 * line[0])
-    _label(spectrum, "frequency, Hz", "m²/Hz", "power spectral density of the height")
+    _label(spectrum, "frequency, Hz", "m²/Hz", "power spectral density of the height, third-octave bands")
+    spectrum.legend()
     _save(figure, path)
 
 
 def history_picture(path, title, time, force):
     """Draw time histories of three axes: `force` maps a sensor to its accelerations (k, 3) [m/s^2] at `time` (k,)."""
     figure, plots = _figure(title, (14, 8), 3, 3, sharey="row", width_ratios=(1.0, 1.0, 0.8))
-    end = time[0] + ZOOM
+    close = time <= time[0] + ZOOM
     for axis, row in enumerate(plots):
         for plot, (sensor, values) in zip(row, force.items(), strict=False):
             plot.plot(time, values[:, axis], color=COLOURS[sensor], linewidth=0.4)
-            row[-1].plot(time[time <= end], values[time <= end, axis], color=COLOURS[sensor], linewidth=1.0, label=sensor)
+            row[-1].plot(time[close], values[close, axis], color=COLOURS[sensor], linewidth=1.0, label=sensor)
             _label(plot, None, None, sensor if axis == 0 else None)
         _label(row[-1], None, None, f"the first {ZOOM:g} s of both" if axis == 0 else None)
         row[0].set_ylabel(f"{AXES[axis]}\nm/s²")
     for plot in plots[-1]:
         plot.set_xlabel("time, s")
-    plots[0, -1].legend(loc="upper right", fontsize=8, ncols=2)
+    plots[0, -1].legend(fontsize=8)
     _save(figure, path)
 
 
@@ -95,11 +95,12 @@ def spectrum_picture(path, title, rate, force, link_passing, engine_orders):
         plot.semilogy(*_vertical(values, rate), color=COLOURS[sensor], linewidth=1.2, label=sensor)
     harmonics = link_passing * np.arange(1, int(HIGHEST_DRAWN / link_passing) + 1)
     for number, frequency in enumerate(harmonics, 1):
-        label = f"link passing, {number if number > 1 else ''} v/p\n{frequency:.1f} Hz"
-        _mark(plot, frequency, label, "0.35", "--", 0.99)
+        label = f"link passing {number if number > 1 else ''}v/p\n{frequency:.1f} Hz"
+        _mark(plot, frequency, label, "0.35", "--", "left")
     for name, frequency in engine_orders.items():
-        _mark(plot, frequency, f"{name}\n{frequency:.1f} Hz", "#3f8f4f", ":", 0.88)
+        _mark(plot, frequency, f"{name}\n{frequency:.1f} Hz", "#2f7f3f", ":", "right")
     plot.set_xlim(0.0, HIGHEST_DRAWN)
+    plot.set_ylim(top=5.0 * plot.get_ylim()[1])  # room for the names of the lines
     _label(plot, "frequency, Hz", "(m/s²)²/Hz", None)
     plot.legend(loc="lower right")
     _save(figure, path)
@@ -127,28 +128,28 @@ def level_picture(path, title, classes, speeds, levels):
     _save(figure, path)
 
 
-def solver_picture(path, title, rate, ours, theirs, levels):
-    """Draw the vertical PSD of two runs and the RMS of all axes beside each other.
+def solver_picture(path, title, rate, force, levels):
+    """Draw the vertical PSD of the runs of two solvers and the RMS of all axes beside each other.
 
-    `ours` and `theirs` map a sensor to its accelerations (k, 3) [m/s^2]; `levels` maps the name of each of the two
-    solvers to a dict of sensor -> RMS (3,) [m/s^2].
+    `force` maps a solver to a dict of sensor -> accelerations (k, 3) [m/s^2], `levels` likewise to RMS values (3,).
     """
     figure = plt.figure(figsize=(14, 7), layout="constrained")
     figure.suptitle(title, fontsize=11)
     left, right = figure.subfigures(1, 2, width_ratios=(1.6, 1.0))
-    names = list(levels)
-    for plot, sensor in zip(left.subplots(2, 1, sharex=True), ours, strict=True):
-        plot.semilogy(*_vertical(ours[sensor], rate), color=COLOURS[sensor], linewidth=2.5, label=names[0])
-        plot.semilogy(*_vertical(theirs[sensor], rate), color=SECOND, linewidth=0.9, linestyle="--", label=names[1])
+    first, second = force
+    for plot, sensor in zip(left.subplots(2, 1, sharex=True), force[first], strict=True):
+        plot.semilogy(*_vertical(force[first][sensor], rate), color=COLOURS[sensor], linewidth=2.5, label=first)
+        plot.semilogy(*_vertical(force[second][sensor], rate), "--", color=SECOND, linewidth=0.9, label=second)
         _label(plot, "frequency, Hz", "(m/s²)²/Hz", f"{sensor}, vertical power spectral density")
         plot.set_xlim(0.0, HIGHEST_DRAWN)
         plot.legend(fontsize=9)
     bars, places, width = right.subplots(), np.arange(3.0), 0.2
-    for number, sensor in enumerate(ours):
-        for name, shift, look in zip(names, (-0.5, 0.5), ({}, {"hatch": "///", "edgecolor": "white"}), strict=True):
-            at = places + width * (2.0 * number - 1.0 + shift)
-            drawn = bars.bar(at, levels[name][sensor], width, color=COLOURS[sensor], label=f"{sensor}, {name}", **look)
-            bars.bar_label(drawn, fmt="%.3f", fontsize=7, rotation=90, padding=3)
+    looks = {first: {}, second: {"hatch": "///", "edgecolor": "white"}}
+    pairs = product(force[first], looks.items())
+    for shift, (sensor, (solver, look)) in zip((-1.5, -0.5, 0.5, 1.5), pairs, strict=True):
+        values, label = levels[solver][sensor], f"{sensor}, {solver}"
+        drawn = bars.bar(places + width * shift, values, width, color=COLOURS[sensor], label=label, **look)
+        bars.bar_label(drawn, fmt="%.3f", fontsize=7, rotation=90, padding=3)
     bars.set_xticks(places, [axis.replace(" (", "\n(") for axis in AXES], fontsize=9)
     bars.margins(y=0.12)
     _label(bars, None, "m/s²", "RMS acceleration")
@@ -166,8 +167,7 @@ def _label(plot, x, y, title):
     plot.set(xlabel=x, ylabel=y)
     plot.set_title(title, fontsize=10)
     plot.grid(alpha=0.3)
-    if plot.get_legend_handles_labels()[0]:
-        plot.legend(fontsize=8)
+    plot.set_axisbelow(True)
 
 
 def _vertical(values, rate):
@@ -175,9 +175,19 @@ def _vertical(values, rate):
     return frequency[1:], density[1:]
 
 
-def _mark(plot, frequency, label, colour, style, height):
+def _third_octaves(values, rate, band):
+    """Return centres [Hz] and mean PSD of the third-octave bands within a band (low, high) [Hz], as in [ISO8608]."""
+    frequency, density = psd(values, rate, 0.2 * band[0])
+    edges = band[0] * 2.0 ** (np.arange(int(3.0 * np.log2(band[1] / band[0])) + 1) / 3.0)
+    parts = [density[(low <= frequency) & (frequency < high)].mean() for low, high in pairwise(edges)]
+    return np.sqrt(edges[:-1] * edges[1:]), parts
+
+
+def _mark(plot, frequency, label, colour, style, side):
     plot.axvline(frequency, color=colour, linestyle=style, linewidth=0.9, zorder=0)
-    plot.text(frequency, height, f" {label}", color=colour, fontsize=7.5, va="top", transform=plot.get_xaxis_transform())
+    away = {"left": 3, "right": -3}[side]
+    plot.annotate(label, (frequency, 0.985), (away, 0), xycoords=plot.get_xaxis_transform(), textcoords="offset points",
+                  color=colour, fontsize=8, ha=side, va="top")  # fmt: skip
 
 
 def _save(figure, path):

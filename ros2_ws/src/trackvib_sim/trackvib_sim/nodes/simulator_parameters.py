@@ -6,7 +6,6 @@ from ..installed import default_vehicle_file
 from ..simulation.settings import Rates, RunSettings
 from ..simulation.simulation import Simulation
 from ..vehicle.coil import usable_current
-from ..vehicle.equilibrium import NoEquilibrium
 from ..vehicle.system import Operation
 from ..vehicle.vehicle_file import VehicleFileError, read_vehicle
 
@@ -65,6 +64,6 @@ def prepare(values):
     try:
         rates = Rates(values["physics_rate"], values["control_rate"], values["odometry_rate"])
         simulation = Simulation(vehicle, RunSettings(operation, rates, values["passive_current"]))
-    except (NoEquilibrium, ValueError) as error:
+    except ValueError as error:  # also of the vehicle: its tracks do not fit, it cannot roll
         raise ParameterError(f"simulator: {error}") from None
     return simulation, usable_current(vehicle), text

@@ -51,7 +51,6 @@ def run_closed_loop(simulation, road, law, periods):
         exchange.publish(simulation.time)
         exchange.offer(simulation.time, answer(law, sample))
         record.stamp[k] = simulation.time
-        record.specific_force[k] = force
-        record.rate[k] = rate
+        record.specific_force[k], record.rate[k] = force[: POWERTRAIN + 1], rate[: POWERTRAIN + 1]
         record.current[k] = exchange.currents
     return record

@@ -1,13 +1,14 @@
 """Results of cases as files, so that a study does only what no earlier one has done."""
 
 import hashlib
-import json
 import os
 from contextlib import contextmanager
-from dataclasses import asdict, astuple
+from dataclasses import astuple, dataclass
 from pathlib import Path
 
-from .drive import Result
+from pydantic import TypeAdapter, ValidationError
+
+from .drive import Case, Result
 
 PACKAGE = Path(__file__).parents[1]
 DECISIVE = (  # modules that `drive` runs; all others may change without making its results void
@@ -19,6 +20,17 @@ DECISIVE = (  # modules that `drive` runs; all others may change without making 
     "analysis/vibration.py",
     "studies/drive.py",
 )
+
+
+@dataclass(frozen=True)
+class _Stored:
+    """What a file holds."""
+
+    case: Case
+    result: Result
+
+
+_FILE = TypeAdapter(_Stored)
 
 
 class CaseStore:
@@ -39,18 +51,16 @@ class CaseStore:
         return sum(not path.name.startswith(self._key) for path in self._folder.glob("*.json"))
 
     def load(self, case):
-        """Return the `Result` of a case, or None if it is not there."""
+        """Return the `Result` of a case, or None if there is no file, or none that can be used."""
         try:
-            content = json.loads(self._path(case).read_text(encoding="utf-8"))
-        except FileNotFoundError:
+            return _FILE.validate_json(self._path(case).read_bytes()).result
+        except (FileNotFoundError, ValidationError):
             return None
-        return Result(**content["result"])
 
     def save(self, case, result):
         """Keep a result. Whatever happens, there is either a whole file or none."""
         with whole_file(self._path(case)) as draft:
-            content = {"case": asdict(case), "result": asdict(result)}
-            draft.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+            draft.write_bytes(_FILE.dump_json(_Stored(case, result), indent=1))
 
     def _path(self, case):
         return self._folder / f"{'_'.join(map(str, (self._key, *astuple(case))))}.json"

@@ -9,6 +9,7 @@ from ..analysis.summary import settling_time
 from ..analysis.vibration import band, band_limited, rms
 from ..road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road
 from ..simulation.open_loop import run_open_loop
+from ..simulation.run_in import CannotRoll
 from ..simulation.settings import Rates, RunSettings
 from ..simulation.simulation import Probe, RunFailed, Simulation
 from ..vehicle.system import Operation
@@ -39,7 +40,7 @@ class Result:
     """What a case gave; plain values."""
 
     status: str  # `GOOD`, or "failed: " and why
-    rms: dict  # probe -> (x, y, z) over `BAND`, body axes, m/s^2; empty where failed
+    rms: dict[str, tuple[float, float, float]]  # by probe, over `BAND`, body axes, m/s^2; empty where failed
     mean_speed: float | None  # m/s
 
 
@@ -72,26 +73,28 @@ def settling(speed):
     return settling_time(speed, LEVEL_UNTIL + FADE)
 
 
-def prepare(vehicle, case):
-    """Return the `Simulation` of a case, with `probes` as the last rows of its sample, and its road."""
+def prepare(vehicle, case, kind=Simulation):
+    """Return the simulation of a case, with `probes` as the last rows of its sample, and its road.
+
+    `kind` is `Simulation` or a subclass of it.
+    """
     operation = Operation(case.speed, ENGINE_SPEED, IMPOSED_DISPLACEMENT, case.track_phase)
-    simulation = Simulation(vehicle, RunSettings(operation, RATES, case.current), probes(vehicle))
+    simulation = kind(vehicle, RunSettings(operation, RATES, case.current), probes(vehicle))
     return simulation, Iso8608Road(case.road_class, case.seed, LEVEL_UNTIL, FADE)
 
 
-def record(vehicle, case, duration=MEASURING):
-    """Drive a case until it has settled and `duration` [s] more; returns a `Drive`.
+def record(simulation, road, duration=MEASURING, progress=lambda done: None):
+    """Drive what `prepare` gave until it has settled and `duration` [s] more; returns a `Drive`.
+
+    `progress(done)` is called now and then with the control periods done.
 
     Raises
     ------
     RunFailed
         The state left what the model can describe.
-    NoEquilibrium
-        The vehicle cannot stand.
     """
-    simulation, road = prepare(vehicle, case)
-    settled = round(settling(case.speed) * RATES.control)
-    run = run_open_loop(simulation, road, settled + round(duration * RATES.control))
+    settled = round(settling(simulation.settings.operation.speed) * RATES.control)
+    run = run_open_loop(simulation, road, settled + round(duration * RATES.control), progress)
     force = dict(zip(PROBES, np.moveaxis(run.specific_force[:, -len(PROBES) :], 1, 0), strict=True))
     # filtered before it is cut, so that the filter's own settling at the start is cut as well
     limited = {probe: band_limited(values, RATES.control)[settled:] for probe, values in force.items()}
@@ -100,16 +103,10 @@ def record(vehicle, case, duration=MEASURING):
 
 
 def drive(vehicle, case, duration=MEASURING):
-    """Drive a case and return its `Result`; a run that leaves the valid range is a result, too.
-
-    Raises
-    ------
-    NoEquilibrium
-        The vehicle cannot stand.
-    """
+    """Drive a case and return its `Result`; a run that leaves the valid range is a result, too."""
     try:
-        measured = record(vehicle, case, duration)
-    except RunFailed as error:
+        measured = record(*prepare(vehicle, case), duration)
+    except (CannotRoll, RunFailed) as error:
         return Result(f"failed: {error}", {}, None)
     levels = {probe: tuple(rms(values).tolist()) for probe, values in measured.limited.items()}
     return Result(GOOD, levels, float(measured.speed.mean()))

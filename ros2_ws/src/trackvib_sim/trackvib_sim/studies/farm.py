@@ -1,17 +1,20 @@
 """Cases on many cores at once, by Dask: those of this machine, or a cluster that is there already."""
 
+import asyncio
 import logging
 import signal
 from contextlib import contextmanager
 from multiprocessing import resource_tracker
 
 from dask.system import CPU_COUNT
-from distributed import Client, KilledWorker, LocalCluster, as_completed
+from distributed import CancelledError, Client, KilledWorker, LocalCluster, TimeoutError, rpc, wait
 
 from .case_store import program
 from .drive import drive
 
 PATIENCE = 5.0  # s for a cluster to answer
+LONG_PATIENCE = 30.0  # s for a worker that died to be started again
+_NOISY = ("distributed", "distributed.client", "tornado.application")
 _SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
@@ -28,39 +31,65 @@ def farm(scheduler, cases):
     FarmError
         Nothing answers at the address, or workers that have no trackvib, or another version of it.
     """
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # the caller says what is to be said
+    for name in _NOISY:
+        logging.getLogger(name).setLevel(logging.CRITICAL)  # an error that matters here is raised
     if scheduler is None:
         with _local(min(CPU_COUNT, cases)) as cluster, Client(cluster) as client:
             yield client
         return
-    try:
-        client = Client(scheduler, timeout=PATIENCE)
-    except (OSError, ValueError):
-        raise FarmError(f"no Dask scheduler answers at {scheduler!r} within {PATIENCE:g} s") from None
-    with client:
+    _check_scheduler(scheduler)
+    with Client(scheduler, timeout=PATIENCE) as client:
         _check_workers(client, scheduler)
         yield client
 
 
 def results(client, vehicle, cases):
-    """Yield each case with its `drive.Result`, in the order in which workers finish them.
+    """Yield each case with its `drive.Result`, in the order in which workers finish them; raises as `finished`."""
+    for k, result in finished(client, drive, [(vehicle, case) for case in cases]):
+        yield cases[k], result
 
-    Cases of a worker that dies are done again by another one.
+
+def finished(client, function, tasks):
+    """Yield the number of each task with `function(*task)`, in the order in which workers finish them.
+
+    Tasks of a worker that dies are done again by another one.
 
     Raises
     ------
     FarmError
-        The cluster is gone, or every worker that takes up a case dies.
-    NoEquilibrium
-        The vehicle cannot stand.
+        Scheduler or workers are gone, or cannot do it.
     """
-    futures = client.map(drive, [vehicle] * len(cases), cases, pure=False)
-    case_of = dict(zip(futures, cases, strict=True))
-    for future in as_completed(futures):
+    futures = client.map(function, *zip(*tasks, strict=True), pure=False)
+    number = {future: k for k, future in enumerate(futures)}
+    pending = set(futures)
+    try:
+        while pending:
+            done, pending = _next(client, pending)
+            for future in done:
+                yield number[future], future.result()
+    except CancelledError:
+        raise FarmError("the Dask scheduler is gone") from None
+    except KilledWorker as error:
+        raise FarmError(f"workers that take up a case die: {error}") from None
+    except ImportError as error:
+        raise FarmError(f"a worker cannot load trackvib: {error}") from None
+
+
+def _next(client, pending):
+    """Wait until one of the futures is done; returns the sets of those done and not done."""
+    while True:
         try:
-            yield case_of[future], future.result()
-        except KilledWorker as error:
-            raise FarmError(f"{case_of[future]}: {error}") from None
+            return wait(pending, PATIENCE, "FIRST_COMPLETED")
+        except TimeoutError:
+            if not client.nthreads():
+                _wait_for_worker(client, LONG_PATIENCE)
+
+
+def _wait_for_worker(client, patience):
+    try:
+        client.wait_for_workers(1, patience)
+    except TimeoutError:
+        raise FarmError(f"the Dask scheduler has had no worker for {patience:g} s") from None
 
 
 def _local(workers):
@@ -74,17 +103,30 @@ def _local(workers):
             threads_per_worker=1,
             memory_limit=None,
             dashboard_address=None,
+            scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},  # any free port, for a page without dashboard
             silence_logs=logging.CRITICAL,
         )
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, mask)
 
 
-def _check_workers(client, scheduler):
+def _check_scheduler(address):
+    """Ask who is there; a `Client` would wait for ever on a server that speaks another protocol."""
+
+    async def kind():
+        async with rpc(address) as server:
+            return (await server.identity())["type"]
+
     try:
-        client.wait_for_workers(1, PATIENCE)
-    except TimeoutError:
-        raise FarmError(f"the Dask scheduler at {scheduler!r} has no workers") from None
+        found = asyncio.run(asyncio.wait_for(kind(), PATIENCE))
+    except Exception:  # a foreign server's answer can be anything
+        found = None
+    if found != "Scheduler":
+        raise FarmError(f"no Dask scheduler answers at {address!r} within {PATIENCE:g} s; use e.g. tcp://host:8786")
+
+
+def _check_workers(client, scheduler):
+    _wait_for_worker(client, PATIENCE)
     here = program()
     for worker, there in client.run(program, on_error="return").items():
         if isinstance(there, Exception):

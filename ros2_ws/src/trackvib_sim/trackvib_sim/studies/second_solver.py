@@ -8,12 +8,12 @@ accelerations are Pinocchio's.
 from typing import NamedTuple
 
 import numpy as np
-import pinocchio as pin
 
+from ..analysis.summary import SENSORS
+from ..analysis.vibration import rms
 from ..rui.cells import columns
 from ..rui.cuts import FORCE, MOMENT, TORQUE, new_cuts, open_cuts
 from ..rui.kinematics import ANGULAR_DRIFT, DRIFT
-from ..rui.placement import parent_rows
 from ..rui.riccati import ANGULAR, HINGE, LINEAR, RESPONSE, solve_accelerations
 from ..rui.state import Loads
 from ..rui.tree import new_rows, to_table
@@ -21,14 +21,8 @@ from ..simulation.simulation import Simulation
 from ..simulation.step import GOOD, add_forces, end_step, observe
 from ..vehicle.body_tree import body_table
 from ..vehicle.coil import drive_coils
-
-
-class BodyAccelerations(NamedTuple):
-    """How the bodies of a table accelerate, global axes."""
-
-    linear: np.ndarray  # (n, 3) of the origin, m/s^2
-    angular: np.ndarray  # (n, 3) rad/s^2
-    hinge: np.ndarray  # (n,) rad/s^2 or m/s^2, the root's is 0
+from .drive import MEASURING, RATES, prepare, record, settling
+from .pinocchio_tree import BodyAccelerations, PinocchioTree, relative_difference
 
 
 class PinocchioSimulation(Simulation):
@@ -75,7 +69,7 @@ class PinocchioSimulation(Simulation):
         solve_accelerations(tree, work.motion, work.cuts, work.response)
         ours = solved(tree, work)
         theirs = self._pinocchio.solve(to_table(tree, self.state.tree), loads)
-        self.difference = max(self.difference, relative_difference(ours, theirs))
+        self.difference = np.maximum(self.difference, relative_difference(ours, theirs))  # a nan must show
         put_back(tree, work, theirs)
 
 
@@ -106,63 +100,36 @@ def put_back(tree, work, found):
     by_lane[tree.row // w, :, tree.row % w] = np.column_stack((linear, angular, found.hinge))
 
 
-def relative_difference(found, reference):
-    """Return the largest difference of two `BodyAccelerations` over the largest entry of the reference, kind by kind."""
-    pairs = zip(found, reference, strict=True)
-    return max(np.abs(one - other).max() / np.abs(other).max() for one, other in pairs)
+SOLVERS = {"Rui method": Simulation, "Pinocchio": PinocchioSimulation}
 
 
-class PinocchioTree:
-    """A table of bodies (revolutes and slides, one free root) in Pinocchio: articulated-body algorithm."""
+class Comparison(NamedTuple):
+    """One case by both solvers."""
 
-    def __init__(self, bodies, gravity):
-        self._model, self._joints = _model(bodies, gravity)
-        self._data = self._model.createData()
-        hinges = [self._model.joints[joint] for joint in self._joints[1:]]
-        self._q_of, self._v_of = [hinge.idx_q for hinge in hinges], [hinge.idx_v for hinge in hinges]
-        self._q, self._v, self._torque = pin.neutral(self._model), np.zeros(self._model.nv), np.zeros(self._model.nv)
-        self._external = pin.StdVec_Force()
-        for _ in range(self._model.njoints):
-            self._external.append(pin.Force.Zero())
+    drives: dict  # solver -> `drive.Drive`
+    difference: float  # greatest one of accelerations from the same state, as in `PinocchioSimulation`
 
-    def solve(self, state, loads):
-        """Return the `BodyAccelerations` in a state under loads (`rui.state`), all in the order of the table."""
-        model, data, q, v, torque = self._model, self._data, self._q, self._v, self._torque
-        w, *imaginary = state.attitude[0]
-        to_local = pin.Quaternion(w, *imaginary).matrix().T
-        q[:7] = *state.position[0], *imaginary, w
-        v[:6] = *(to_local @ state.velocity[0]), *(to_local @ state.rate[0])
-        q[self._q_of], v[self._v_of], torque[self._v_of] = state.hinge[1:], state.hinge_rate[1:], loads.torque[1:]
-        pin.forwardKinematics(model, data, q, v)
-        for joint, force, moment in zip(self._joints, loads.force, loads.moment, strict=True):
-            to_local = data.oMi[joint].rotation.T
-            self._external[joint] = pin.Force(to_local @ force, to_local @ moment)
-        a = pin.aba(model, data, q, v, torque, self._external).copy()
-        pin.forwardKinematics(model, data, q, v, a)
-        axes = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
-        linear = [pin.getClassicalAcceleration(model, data, joint, axes).linear for joint in self._joints]
-        angular = [pin.getAcceleration(model, data, joint, axes).angular for joint in self._joints]
-        return BodyAccelerations(np.array(linear), np.array(angular), np.array([0.0, *a[self._v_of]]))
+    def levels(self):
+        """Return solver -> sensor -> RMS (3,) of the accelerations [m/s^2]."""
+        return {
+            solver: {sensor: rms(drive.limited[sensor]) for sensor in SENSORS} for solver, drive in self.drives.items()
+        }
 
 
-def _model(bodies, gravity):
-    """Return the model and the joint of every body; Pinocchio wants branches one after the other, depth first."""
-    model, joints, parents = pin.Model(), [0] * len(bodies), parent_rows(bodies)
-    model.gravity.linear = np.asarray(gravity, dtype=float)
-    kinds = {"revolute": pin.JointModelRevoluteUnaligned, "slide": pin.JointModelPrismaticUnaligned}
+def compare(vehicle, case, progress, duration=MEASURING):
+    """Drive a case by both solvers; returns a `Comparison`.
 
-    def add(row):
-        body = bodies[row]
-        parent, joint, place = 0, pin.JointModelFreeFlyer(), np.zeros(3)
-        if body.hinge is not None:
-            axis = np.asarray(body.hinge.axis, dtype=float)
-            parent, joint = joints[parents[row]], kinds[body.hinge.kind](axis / np.linalg.norm(axis))
-            place = np.asarray(body.hinge.place, dtype=float)
-        joints[row] = model.addJoint(parent, joint, pin.SE3(np.eye(3), place), body.name)
-        inertia = pin.Inertia(body.mass, np.asarray(body.centre, dtype=float), np.asarray(body.inertia, dtype=float))
-        model.appendBodyToJoint(joints[row], inertia, pin.SE3.Identity())
-        for child in np.flatnonzero(np.asarray(parents) == row):
-            add(child)
+    `progress(solver, share)` is called now and then with the part of the run that the solver has done.
 
-    add(0)
-    return model, joints
+    Raises
+    ------
+    RunFailed
+        The state left what the model can describe.
+    """
+    drives, periods = {}, (settling(case.speed) + duration) * RATES.control
+    for solver, kind in SOLVERS.items():
+        simulation, road = prepare(vehicle, case, kind)
+        drives[solver] = record(
+            simulation, road, duration, lambda done, solver=solver: progress(solver, min(done / periods, 1.0))
+        )
+    return Comparison(drives, simulation.difference)

@@ -11,6 +11,7 @@ from .body_tree import STATIONS, body_table
 from .equilibrium import static_equilibrium
 from .hinge_springs import add_hinge_springs
 from .mr_mounts import mount_characteristics, mount_deflection, mount_force
+from .supports import pulls
 from .suspension import add_suspension
 from .system import new_work
 
@@ -74,3 +75,5 @@ def _ground(system, bodies, motion):
     for place in supports.brake:
         held = point_place(motion, supports.hull, tuple(place))
         yield GroundSpring(name[supports.hull], place, *brake, brake[0] @ (place - held))
+    for row, point, force in pulls(supports):
+        yield GroundSpring(name[row], point, force=force)

@@ -2,6 +2,7 @@
 
 Under a wheel two shoes share the load, so rubber and ground act in series. Sideways the guide horns hold the wheel in the
 band of shoes, which lies fast. The sprockets are braked: they hold the hull by the run of links down to the rearmost wheel.
+The runs at both ends pull sprocket and idler down and the end wheels up, and the upper run hangs on the hull.
 """
 
 from typing import NamedTuple
@@ -12,7 +13,8 @@ from ..rui.compiled import kernel
 from ..rui.cuts import apply_force
 from ..rui.kinematics import ORIGIN, VELOCITY, motion_vector, point_place, point_velocity
 from ..rui.spatial import load3
-from .body_tree import SIDES, SPROCKET, STATIONS, wheel_name
+from .body_tree import SIDES, STATIONS, wheel_name
+from .tracks.layout import end_runs, upper_weight
 
 SHOES_UNDER_WHEEL = 2.0
 
@@ -23,14 +25,17 @@ class Supports(NamedTuple):
     wheel: np.ndarray  # (12,) rows in the tree
     hull: int  # row
     brake: np.ndarray  # (2, 3) where the braked sprockets hold the hull, m
+    idler: np.ndarray  # (2, 3) m
+    pull: np.ndarray  # (2, 2) of a track on the hull at sprocket and idler, x and z, N
+    upper_weight: float  # N of a track's links that hang on the hull
     radius: float  # height of a hub over unloaded springs, m
     vertical: tuple  # of each wheel: stiffness N/m, damping N s/m
     lateral: tuple  # likewise
     longitudinal: tuple  # of each sprocket
 
 
-def supports(vehicle, rows):
-    """Return the record for the vehicle."""
+def supports(vehicle, rows, travel):
+    """Return the record for the vehicle with a `travel` [m] of its tensioners."""
     v = vehicle
     shoes = (SHOES_UNDER_WHEEL * v.ground.stiffness, SHOES_UNDER_WHEEL * v.ground.damping)
     run = int(np.hypot(min(v.swing_arms.wheel_x) - v.sprockets.x[0], v.sprockets.z[0]) / v.tracks.pitch)
@@ -38,6 +43,9 @@ def supports(vehicle, rows):
         wheel=np.array([rows[wheel_name(side, station)] for side in SIDES for station in range(STATIONS)]),
         hull=rows["hull"],
         brake=np.array([(v.sprockets.x[0], sign * v.sprockets.y, v.sprockets.z[0]) for sign in SIDES.values()]),
+        idler=np.array([(v.idlers.x[0], sign * v.idlers.y, v.idlers.z[0]) for sign in SIDES.values()]),
+        pull=end_runs(v, travel),
+        upper_weight=upper_weight(v, travel),
         radius=v.road_wheels.radius,
         vertical=_in_series((v.tyres.radial_stiffness, v.tyres.radial_damping), shoes),
         lateral=(v.tyres.guide_stiffness, v.tyres.guide_damping),
@@ -66,3 +74,21 @@ def add_supports(supports, motion, cuts):
         velocity = point_velocity(motion, supports.hull, place)
         forward = supports.longitudinal[0] * (supports.brake[side, 0] - place[0])
         apply_force(cuts, motion, supports.hull, place, (forward - supports.longitudinal[1] * velocity[0], 0.0, 0.0))
+        _pull(supports, motion, cuts, 0, place, supports.wheel[side * STATIONS + STATIONS - 1])
+        _pull(supports, motion, cuts, 1, point_place(motion, supports.hull, load3(supports.idler, side)), supports.wheel[side * STATIONS])
+
+
+@kernel
+def _pull(supports, motion, cuts, end, place, wheel):
+    x, z = supports.pull[end, 0], supports.pull[end, 1]
+    apply_force(cuts, motion, supports.hull, place, (x, 0.0, z - 0.5 * supports.upper_weight))
+    apply_force(cuts, motion, wheel, motion_vector(motion, ORIGIN, wheel), (-x, 0.0, -z))
+
+
+def pulls(supports):
+    """Yield row in the tree, point in body axes (3,) [m] and force (3,) [N] of all that does not change with place."""
+    for side in range(len(SIDES)):
+        ends = (supports.brake[side], STATIONS - 1), (supports.idler[side], 0)
+        for (place, station), (x, z) in zip(ends, supports.pull, strict=True):
+            yield supports.hull, place, np.array([x, 0.0, z - 0.5 * supports.upper_weight])
+            yield supports.wheel[side * STATIONS + station], np.zeros(3), np.array([-x, 0.0, -z])

@@ -26,22 +26,19 @@ class Suspension(NamedTuple):
     stop_damping: float  # N m s/rad
 
 
-def suspension(vehicle, rows, sprung_mass, gravity):
-    """Return the record for the vehicle.
-
-    `sprung_mass` [kg] is what the twelve bars carry in equal shares at angle zero.
-    """
+def suspension(vehicle, rows, load):
+    """Return the record for the vehicle; `load` [N] is what the twelve bars carry in equal shares at angle zero."""
     arms, shocks = vehicle.swing_arms, vehicle.shock_absorbers
     angle = radians(arms.static_angle)
     reach = arms.length * cos(angle)
-    load = sprung_mass * gravity / (len(SIDES) * STATIONS)
+    share = load / (len(SIDES) * STATIONS)
     carriers = {int(station) - 1 for station in shocks.stations}
     return Suspension(
         row=np.array([rows[arm_name(side, station)] for side in SIDES for station in range(STATIONS)]),
         has_shock=np.array([float(station in carriers) for _ in SIDES for station in range(STATIONS)]),
         length=arms.length,
         bar_stiffness=arms.wheel_rate * reach**2,
-        preload=load * reach,
+        preload=share * reach,
         friction=arms.friction * arms.length**2,
         shock_damping=shocks.damping,
         blow_off_force=shocks.blow_off_force,

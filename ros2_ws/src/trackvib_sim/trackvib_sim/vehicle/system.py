@@ -75,17 +75,21 @@ def build_system(vehicle, operation, dt):
     tree = build_tree(table, gravity=(0.0, 0.0, -GRAVITY))
     rows = body_rows(vehicle, tree)
     mass = {body.name: body.mass for body in table}
+    running_tracks = tracks(vehicle, rows)
+    standing = supports(vehicle, rows, running_tracks.tensioner.fitted)
+    pull = 2.0 * (standing.upper_weight - standing.pull[:, 1].sum())
+    load = sum(mass[name] for name in SPRUNG) * GRAVITY + pull
     return System(
         dt=dt,
         tree=tree,
         springs=hinge_springs(vehicle, rows),
-        suspension=suspension(vehicle, rows, sum(mass[name] for name in SPRUNG), GRAVITY),
+        suspension=suspension(vehicle, rows, load),
         mounts=mr_mounts(vehicle, rows),
         coil=coil(vehicle, dt),
         engine=engine(vehicle, rows, operation.engine_speed, operation.imposed_displacement),
         driver=driver(vehicle, rows, operation.speed),
-        supports=supports(vehicle, rows),
-        tracks=tracks(vehicle, rows),
+        supports=standing,
+        tracks=running_tracks,
     )
 
 

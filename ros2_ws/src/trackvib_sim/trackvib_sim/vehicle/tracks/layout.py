@@ -53,6 +53,34 @@ def idler_load(vehicle, travel):
     return vehicle.tracks.pretension * (tangent[touching[0] - 1, 0] - tangent[touching[-1], 0])
 
 
+def end_runs(vehicle, travel):
+    """Return what a standing track's ends pull with, forces (2, 2) [N], x and z: at the sprocket and at the idler.
+
+    Each is the tension of the run down to the end wheel and, against it, that of the level runs; the end wheel is pulled
+    the opposite way.
+    """
+    line, cut = _cut(vehicle, travel)
+    down = np.diff(line.corner, axis=0)[cut]
+    down *= -np.sign(down[:, 1:]) / np.linalg.norm(down, axis=1)[:, None]
+    down = down[np.argsort(line.corner[cut, 0])]
+    return vehicle.tracks.pretension * (down - np.array([[1.0, 0.0], [-1.0, 0.0]]))
+
+
+def upper_weight(vehicle, travel):
+    """Return the weight [N] of those links of one track that hang on sprocket, rollers and idler."""
+    line, cut = _cut(vehicle, travel)
+    above = abs(np.diff(line.arc[cut])[0]) / line.arc[-1]
+    # the line begins under a road wheel, so that what lies between the cuts is the upper part
+    return above * vehicle.tracks.links * vehicle.tracks.shoe_mass * GRAVITY
+
+
+def _cut(vehicle, travel):
+    """The taut line and its two sides that are cut at half the height of the idler's lowest point."""
+    line = _taut_line(vehicle, travel)
+    above = line.corner[:, 1] > 0.5 * (vehicle.idlers.z[0] - vehicle.idlers.radius)
+    return line, np.flatnonzero(above[:-1] != above[1:])
+
+
 def lay_track(vehicle, travel, phase):
     """Return places (n, 2) of the pins in the order of the chain and the line's directions (n, 2) there.
 

@@ -36,6 +36,17 @@ class Wheels(NamedTuple):
     guide_damping: np.ndarray  # N s/m
 
 
+class Rim(NamedTuple):
+    """One wheel's part of `Wheels`."""
+
+    radius: float
+    stiffness: float
+    damping: float
+    friction: float
+    guide_stiffness: float
+    guide_damping: float
+
+
 class Hub(NamedTuple):
     """A wheel as its track sees it, hull axes."""
 
@@ -122,32 +133,37 @@ def add_wheel(wheels, side, k, hub, link, n, work, load):
     once less. Where it bends away, a foot can lie in neither: the pin counts by itself. So the force is that of one
     rim, and steady.
     """
-    radius, window = wheels.radius[side, k], wheels.window[side, k]
+    rim = Rim(
+        wheels.radius[side, k],
+        wheels.stiffness[side, k],
+        wheels.damping[side, k],
+        wheels.friction[side, k],
+        wheels.guide_stiffness[side, k],
+        wheels.guide_damping[side, k],
+    )
+    window, inner = wheels.window[side, k], rim.radius * rim.radius
     i = link - window
     i = i + n if i < 1 else i
     inside, beyond = False, False  # whether the foot lay inside the link before, or beyond its end
     for _ in range(2 * window + 1):
+        j = i + 1 if i < n else 1
         ax, az = work[i] - hub.x, work[2 * STRIDE + i] - hub.z
         ux, uz = work[i + 1] - work[i], work[2 * STRIDE + i + 1] - work[2 * STRIDE + i]
         along, square = -(ax * ux + az * uz), ux * ux + uz * uz
         across = ax * uz - az * ux
         within = 0.0 <= along < square
-        if ax * ax + az * az < radius * radius:
-            if beyond and along < 0.0:
-                _press(wheels, side, k, hub, 0.0, 1.0, i, n, work, load)
-            elif inside and within:
-                _press(wheels, side, k, hub, 0.0, -1.0, i, n, work, load)
-        if within and across * across < radius * radius * square:
-            _press(wheels, side, k, hub, along / square, 1.0, i, n, work, load)
+        if ax * ax + az * az < inner and ((beyond and along < 0.0) or (inside and within)):
+            _press(rim, hub, 0.0, -1.0 if inside else 1.0, i, j, work, load)
+        if within and across * across < inner * square:
+            _press(rim, hub, along / square, 1.0, i, j, work, load)
         inside, beyond = within, along >= square
-        i = i + 1 if i < n else 1
+        i = j
 
 
 @kernel
-def _press(wheels, side, k, hub, share, weight, i, n, work, load):
-    """Add `weight` times the contact of a rim with link i at a part `share` of its length."""
-    stiffness, guide_damping = wheels.stiffness[side, k], wheels.guide_damping[side, k]
-    j, rest = i + 1 if i < n else 1, 1.0 - share
+def _press(rim, hub, share, weight, i, j, work, load):
+    """Add `weight` times the contact of a rim with the link from node i to node j, at a part `share` of its length."""
+    rest = 1.0 - share
     dx = rest * work[i] + share * work[j] - hub.x
     sideways = rest * work[STRIDE + i] + share * work[STRIDE + j] - hub.y
     dz = rest * work[2 * STRIDE + i] + share * work[2 * STRIDE + j] - hub.z
@@ -156,19 +172,19 @@ def _press(wheels, side, k, hub, share, weight, i, n, work, load):
     vz = rest * work[5 * STRIDE + i] + share * work[5 * STRIDE + j] - hub.vz
     distance = np.sqrt(dx * dx + dz * dz)
     nx, nz = dx / distance, dz / distance
-    depth, leaving = wheels.radius[side, k] - distance, vx * nx + vz * nz
-    normal = max(0.0, stiffness * depth - wheels.damping[side, k] * leaving)
+    depth, leaving = rim.radius - distance, vx * nx + vz * nz
+    normal = max(0.0, rim.stiffness * depth - rim.damping * leaving)
     # the rim moves along (nz, -nx) when the wheel rolls forward
     slip = vx * nz - vz * nx - hub.spin * distance
-    drag = wheels.friction[side, k] * normal * slip / np.sqrt(slip * slip + CREEP * CREEP)
-    guide = wheels.guide_stiffness[side, k] * sideways + guide_damping * vy
+    drag = rim.friction * normal * slip / np.sqrt(slip * slip + CREEP * CREEP)
+    guide = rim.guide_stiffness * sideways + rim.guide_damping * vy
     force = (weight * (normal * nx - drag * nz), -weight * guide, weight * (normal * nz + drag * nx))
     for axis in range(3):
         work[(CONTACT + axis) * STRIDE + i] += rest * force[axis]
         work[(CONTACT + axis) * STRIDE + j] += share * force[axis]
     add_reaction(load, (dx, sideways, dz), force)
-    load[HEAT] += weight * (leaving * (stiffness * depth - normal) + drag * slip + guide_damping * vy * vy)
-    load[STORED] += weight * 0.5 * (stiffness * depth * depth + wheels.guide_stiffness[side, k] * sideways * sideways)
+    load[HEAT] += weight * (leaving * (rim.stiffness * depth - normal) + drag * slip + rim.guide_damping * vy * vy)
+    load[STORED] += weight * 0.5 * (rim.stiffness * depth * depth + rim.guide_stiffness * sideways * sideways)
 
 
 @inlined

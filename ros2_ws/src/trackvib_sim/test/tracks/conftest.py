@@ -1,0 +1,36 @@
+"""Vehicles with their tracks laid or rolling, and how one moves step by step."""
+
+import numpy as np
+import pytest
+from trackvib_sim.road.store import Road
+from trackvib_sim.simulation.step import GOOD, Sensors, advance, new_sample
+from trackvib_sim.vehicle.system import new_work
+
+
+@pytest.fixture(scope="session")
+def rolling(simulation):
+    """A function that returns system and state of a vehicle that has rolled in on a level road, engine off."""
+
+    def make(speed=10.0, physics=10_000):
+        moving = simulation(speed=speed, physics=physics)
+        return moving.system, moving.state
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def advanced():
+    """A function `advanced(system, state, road, steps)` that moves a state on, with 1 A in the coils."""
+
+    def move(system, state, road, steps):
+        sensors = Sensors(np.zeros(0, int), np.zeros((0, 3)))
+        status = advance(system, state, road, np.ones(2), steps, new_work(system), sensors, new_sample(sensors))
+        assert status == GOOD
+
+    return move
+
+
+@pytest.fixture(scope="session")
+def valley():
+    """A level road far below everything."""
+    return Road(-1000, 1.0, np.full((2, 2000), -1000.0))

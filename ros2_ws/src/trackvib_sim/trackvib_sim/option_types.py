@@ -1,0 +1,27 @@
+"""Types of command-line options."""
+
+from math import isfinite
+
+import click
+
+
+class FiniteRange(click.FloatRange):
+    """A range of floats, to which "nan" does not belong (to click's own it does)."""
+
+    def convert(self, value, param, ctx):
+        number = super().convert(value, param, ctx)
+        if not isfinite(number):
+            self.fail(f"{value} is not in the range {self._describe_range()}.", param, ctx)
+        return number
+
+
+class Several(click.ParamType):
+    """Values of another type with commas between them: a sorted tuple, each value once."""
+
+    def __init__(self, item):
+        self.item = item
+        self.name = f"{item.name},..."
+
+    def convert(self, value, param, ctx):
+        parts = value.split(",") if isinstance(value, str) else value
+        return tuple(sorted({self.item.convert(part, param, ctx) for part in parts}))

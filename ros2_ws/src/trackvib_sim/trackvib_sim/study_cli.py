@@ -1,0 +1,82 @@
+"""The command line's studies: `trackvib study NAME`."""
+
+import sys
+from contextlib import contextmanager
+
+import click
+
+from .option_types import FiniteRange, Several
+from .road.iso8608 import CLASSES
+
+
+@click.group()
+def study():
+    """Many runs of the whole vehicle, set beside published results."""
+
+
+@contextmanager
+def _ends_in_one_line(out):
+    """Turn what can go wrong in a study into one line and an exit code."""
+    from .studies.farm import FarmError  # imported late: --help need not wait for it
+
+    try:
+        yield
+    except (FarmError, ValueError, OSError) as error:
+        click.echo(f"error: {error}", err=True)
+        sys.exit(1)
+    except KeyboardInterrupt:
+        click.echo(f"interrupted; finished runs are kept in {out}, the same command goes on from there", err=True)
+        sys.exit(130)
+
+
+@study.command()
+@click.option("--classes", type=Several(click.Choice(list(CLASSES))), default=",".join(CLASSES), show_default=True,
+              metavar="A,B,...", help="Classes of the road by ISO 8608.")
+@click.option("--speeds", type=Several(FiniteRange(0.0, 25.0, min_open=True)), default="5,10,20", show_default=True,
+              metavar="V,V,...", help="Speeds in m/s.")
+@click.option("--seeds", type=click.IntRange(1, 1000), default=3, show_default=True,
+              help="Runs a class and speed, each with its own road and track phase.")
+@click.option("--vehicle", type=click.Path(dir_okay=False), default=None,
+              help="Vehicle file.  [default: the one that comes with the package]")
+@click.option("--scheduler", default=None, metavar="ADDRESS",
+              help="Dask scheduler whose workers do it.  [default: all cores of this machine]")
+@click.option("--out", type=click.Path(file_okay=False), default="table1", show_default=True,
+              help="Folder of the study; finished runs in it are not done again.")
+def table1(classes, speeds, seeds, vehicle, scheduler, out):
+    """RMS accelerations over classes and speeds, beside the paper's Table 1."""
+    with _ends_in_one_line(out):
+        from .studies.table1 import perform  # imported late, as above
+
+        perform(classes, speeds, seeds, vehicle, scheduler, out)
+
+
+@study.command()
+@click.option("--scheduler", default=None, metavar="ADDRESS",
+              help="Dask scheduler whose workers do the runs.  [default: all cores of this machine]")
+@click.option("--out", type=click.Path(file_okay=False), default="figures", show_default=True,
+              help="Folder of the figures; finished runs in it are not done again.")
+def figures(scheduler, out):
+    """The paper's other figures as pictures, and a second solver beside ours."""
+    with _ends_in_one_line(out):
+        from .studies.figures import perform  # imported late, as above
+
+        perform(out, scheduler)
+
+
+@study.command()
+@click.option("--generations", type=click.IntRange(1, 100000), default=None,
+              help="Generations of the search in all, with those done earlier.  [default: the plan's]")
+@click.option("--plan", type=click.Path(dir_okay=False), default=None,
+              help="Which parameters, bounds and effort.  [default: the plan that comes with the package]")
+@click.option("--vehicle", type=click.Path(dir_okay=False), default=None,
+              help="Vehicle file to start from.  [default: the one that comes with the package]")
+@click.option("--scheduler", default=None, metavar="ADDRESS",
+              help="Dask scheduler whose workers do the runs.  [default: all cores of this machine]")
+@click.option("--out", type=click.Path(file_okay=False), default="calibration", show_default=True,
+              help="Folder of the study; a search in it goes on.")
+def calibrate(generations, plan, vehicle, scheduler, out):
+    """Fit uncertain parameters of the vehicle to the rows of the paper's Table 1 that are given."""
+    with _ends_in_one_line(out):
+        from .studies.calibration import perform  # imported late, as above
+
+        perform(plan, vehicle, generations, scheduler, out)

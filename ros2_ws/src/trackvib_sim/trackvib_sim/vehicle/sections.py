@@ -1,0 +1,28 @@
+"""What sections of a vehicle file are made of: common quantities, and the rigid body."""
+
+from pydantic import BaseModel, ConfigDict
+
+from .quantities import scalar, vector
+
+Mass = scalar("kg", gt=0.0)
+Length = scalar("m", gt=0.0)
+Place = vector("m", 3)
+Inertia = vector("kg m^2", 3, gt=0.0)
+Products = vector("kg m^2", 3)
+Gain = lambda unit: scalar(unit, ge=0.0)  # noqa: E731 - reads as the type it stands for
+Range = lambda unit: vector(unit, 2, ge=0.0)  # noqa: E731
+
+
+class Section(BaseModel):
+    """A section of the file: unknown items are refused."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Solid(Section):
+    """A rigid body: mass, centre from its origin, inertia about the centre (diagonal; products as matrix elements)."""
+
+    mass: Mass
+    centre: Place
+    inertia: Inertia
+    products: Products

@@ -1,0 +1,50 @@
+"""`trackvib vehicle`: a vehicle's parameters with their sources, what follows from them, and its drawing to scale."""
+
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from .analysis.vehicle_picture import vehicle_picture
+from .analysis.vehicle_table import Figure, Parameter, figures, parameters
+from .installed import default_vehicle_file
+from .vehicle.vehicle_file import read_vehicle
+
+
+def perform(vehicle_file, picture):
+    """Print the tables of a vehicle file, or of the one that comes with the package if that is None, and draw it.
+
+    Raises
+    ------
+    ValueError
+        The file cannot be used, the tracks do not fit, or the picture's folder does not exist.
+    OSError
+        The picture cannot be written.
+    """
+    if not Path(picture).absolute().parent.is_dir():
+        raise ValueError(f"picture {picture}: its folder must exist")
+    path = vehicle_file or default_vehicle_file()
+    vehicle, text = read_vehicle(path)
+    vehicle_picture(vehicle, picture)
+    out = Console(highlight=False)
+    out.print(_parameters(text, f"Vehicle {path}"))
+    out.print(_figures(vehicle))
+    out.print(f"drawing: {picture}")
+
+
+def _parameters(text, title):
+    table = Table(*Parameter._fields, title=title)
+    for section, items in parameters(text).items():
+        table.add_section()
+        table.add_row(f"[bold]{section}")
+        for item in items:
+            table.add_row(*(escape(word) for word in item))
+    return table
+
+
+def _figures(vehicle):
+    table = Table(*Figure._fields, title="What follows from these")
+    for figure in figures(vehicle):
+        table.add_row(*(escape(word) for word in figure))
+    return table

@@ -1,0 +1,84 @@
+"""`trackvib vehicle`, as a user calls it."""
+
+import pytest
+import yaml
+from trackvib_sim.installed import default_vehicle_file
+
+pytestmark = pytest.mark.system
+
+PNG = b"\x89PNG\r\n\x1a\n"
+
+
+@pytest.fixture
+def vehicle(start_cli):
+    """Run `trackvib vehicle` to its end, in a directory of the test: exit code and output."""
+
+    def make(*arguments):
+        process = start_cli("vehicle", *arguments)
+        return process.wait(), process.output
+
+    return make
+
+
+@pytest.fixture
+def other(tmp_path):
+    """Write the shipped vehicle file with another value of one item: `other("hull", "mass", 1.0)`."""
+
+    def make(section, item, value):
+        content = yaml.safe_load(default_vehicle_file().read_text(encoding="utf-8"))
+        content[section][item]["value"] = value
+        path = tmp_path / "mine.yaml"
+        path.write_text(yaml.safe_dump(content), encoding="utf-8")
+        return path
+
+    return make
+
+
+def test_prints_tables_and_draws(vehicle, tmp_path):
+    """Without options the shipped vehicle stands in both tables, and its drawing lies where the user stands."""
+    code, output = vehicle()
+    assert code == 0, output
+    for word in ("sprocket_teeth", "link_stiffness", "published", "literature", "assumed", "v/p", "vehicle.png"):
+        assert word in output
+    assert (tmp_path / "vehicle.png").read_bytes().startswith(PNG)
+    assert [path.name for path in tmp_path.rglob("*.png")] == ["vehicle.png"]
+
+
+def test_takes_another_vehicle(vehicle, other, tmp_path):
+    """A file of the user's own is printed and drawn to where it was asked for."""
+    code, output = vehicle("--vehicle", other("hull", "mass", 23456.0), "--out", tmp_path / "mine.png")
+    assert code == 0, output
+    assert "23456" in output and "mine.png" in output
+    assert (tmp_path / "mine.png").read_bytes().startswith(PNG)
+
+
+@pytest.mark.parametrize(
+    ("item", "words"),
+    [
+        (("hull", "mass", -1.0), ("mine.yaml: hull.mass is -1.0", "greater than 0")),
+        (("tracks", "links", 150), ("tracks.links x tracks.pitch is", "must be")),
+    ],
+)
+def test_refuses_a_bad_vehicle_in_one_line(vehicle, other, tmp_path, item, words):
+    """A value out of range and a track that does not fit end in one line, exit code 1 and no drawing."""
+    code, output = vehicle("--vehicle", other(*item))
+    assert code == 1
+    assert output.startswith("error: ") and output.count("\n") == 1 and output.endswith("\n")
+    assert all(word in output for word in words)
+    assert not list(tmp_path.rglob("*.png"))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--vehicle", "nowhere.yaml"), ("'nowhere.yaml'", "cannot be read")),
+        (("--out", "nowhere/vehicle.png"), ("nowhere/vehicle.png", "folder must exist")),
+    ],
+)
+def test_refuses_places_that_are_not_there(vehicle, tmp_path, arguments, words):
+    """A missing file and a missing folder end in one line, exit code 1 and no drawing."""
+    code, output = vehicle(*arguments)
+    assert code == 1
+    assert output.startswith("error: ") and output.count("\n") == 1
+    assert all(word in output for word in words)
+    assert not list(tmp_path.rglob("*.png"))
