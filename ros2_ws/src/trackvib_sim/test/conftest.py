@@ -229,6 +229,12 @@ class Heights:
 
 
 @pytest.fixture(scope="session")
+def heights():
+    """`Heights`."""
+    return Heights
+
+
+@pytest.fixture(scope="session")
 def level():
     """A level road without end."""
     return Heights(np.zeros_like, np.zeros_like)

@@ -2,16 +2,21 @@
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 from trackvib_sim.road.feeder import RoadFeeder
 from trackvib_sim.road.iso8608 import Iso8608Road
+from trackvib_sim.simulation.run_in import CannotRoll
 from trackvib_sim.simulation.settings import Rates, RunSettings
 from trackvib_sim.simulation.simulation import RunFailed, Simulation
+from trackvib_sim.simulation.step import LONGEST_FLIGHT
 from trackvib_sim.vehicle.system import Operation
+from trackvib_sim.vehicle.tracks.nodes import PLACE, STRIDE, VELOCITY
+
+pytestmark = pytest.mark.property
 
 
-def drive(vehicle, speed, road, periods):
-    """Yield the simulation after each period."""
-    simulation = Simulation(vehicle, RunSettings(Operation(speed, 0.0, False), Rates(), 1.0))
+def drive(simulation, road, periods):
+    """Advance the simulation, and yield it after each period."""
     feeder = RoadFeeder(road, 50.0)
     for _ in range(periods):
         for start, spacing, heights in feeder.patches(simulation.distance):
@@ -20,34 +25,105 @@ def drive(vehicle, speed, road, periods):
         yield simulation
 
 
-@pytest.mark.property
-def test_overturning_ends_a_run_with_its_reason(vehicle):
-    """Class H at 25 m/s throws the vehicle over: the run fails by name and time and keeps its last sample."""
-    simulation = None
-    with pytest.raises(RunFailed, match=r"(overturned|below the road) after t = \d+\.\d{3} s"):
-        for simulation in drive(vehicle, 25.0, Iso8608Road("H", 1, 8.0, 8.0), 20_000):
-            before = [part.copy() for part in (simulation.sample.specific_force, simulation.sample.rate)]
+def throw(simulation, height, roll=0.0):
+    """Lift a standing vehicle with its tracks by a height [m] and turn both about the x axis by an angle [rad]."""
+    turn, tree = Rotation.from_euler("x", roll), simulation.state.tree
+    up = np.array([0.0, 0.0, height])
+    nodes = simulation.state.tracks.nodes.reshape(2, -1, STRIDE)
+    for quantity, shift in ((PLACE, up), (VELOCITY, 0.0)):
+        vectors = nodes[:, quantity : quantity + 3]
+        vectors[:] = np.moveaxis(turn.apply(np.moveaxis(vectors, 1, 2).reshape(-1, 3)).reshape(2, STRIDE, 3), 2, 1)
+        vectors += np.reshape(shift, (-1, 1))
+    tree.position[:] = turn.apply(tree.position) + up
+    tree.velocity[:], tree.rate[:] = turn.apply(tree.velocity), turn.apply(tree.rate)
+    attitude = turn * Rotation.from_quat(tree.attitude, scalar_first=True)
+    tree.attitude[:] = attitude.as_quat(scalar_first=True)
+
+
+@pytest.mark.parametrize("roll", [1.25, -1.25, 3.0])
+def test_a_vehicle_on_its_side_has_overturned(simulation, level, roll):
+    """Tilted by more than 1.2 rad the vehicle has overturned; short of that, in the air, it goes on."""
+    fallen, leaning = simulation(speed=0.0), simulation(speed=0.0)
+    throw(fallen, 5.0, roll)
+    with pytest.raises(RunFailed, match=r"^the vehicle has overturned after t = 0\.000 s$"):
+        list(drive(fallen, level, 1))
+    throw(leaning, 5.0, np.copysign(1.15, roll))
+    assert [each.periods for each in drive(leaning, level, 10)] == list(range(1, 11))
+
+
+def test_a_long_flight_ends_a_run(simulation, level):
+    """Without a shoe on the ground for longer than the limit the run fails, its last sample is that of free fall."""
+    flying = simulation(speed=0.0)
+    throw(flying, 20.0)
+    with pytest.raises(RunFailed, match=r"^no shoe has touched the ground for 1 s after t = 1\.000 s$"):
+        list(drive(flying, level, 2000))
+    assert flying.periods == 1000 * LONGEST_FLIGHT
+    # it swings on its springs, that have nothing to carry, by some cm
+    assert np.abs(flying.sample.specific_force).max() < 9.81
+
+
+def test_a_short_flight_does_not(simulation, level):
+    """A vehicle that drops by 20 cm lands after 0.2 s, and then its flight counts for nothing."""
+    dropped, flight = simulation(speed=0.0), []
+    throw(dropped, 0.2)
+    for each in drive(dropped, level, 600):
+        flight.append(each.state.flight[0])
+    assert 0.1 < max(flight) < 0.25
+    assert flight[-1] == 0.0
+
+
+def test_a_wheel_below_the_road_ends_a_run(simulation, heights):
+    """Where the road lies above a road wheel's hub on one side alone, the run fails."""
+    lost = simulation(speed=0.0)
+    lost.road.add(-20.0, 0.05, *heights(lambda x: 0.0 * x, lambda x: 0.0 * x + 0.6).heights(-400, 801))
+    with pytest.raises(RunFailed, match=r"^a road wheel lies below the road after t = 0\.000 s$"):
+        lost.advance(np.ones(2))
+
+
+def test_failure_keeps_the_last_sample(vehicle):
+    """Class H at 25 m/s is beyond the vehicle: the run fails by name and time and keeps its last sample."""
+    thrown = Simulation(vehicle, RunSettings(Operation(25.0, 0.0, False), Rates(), 1.0))
+    with pytest.raises(RunFailed, match=r"(overturned|below the road|touched the ground for 1 s) after t = \d+\.\d{3} s"):
+        for _ in drive(thrown, Iso8608Road("H", 1, 8.0, 8.0), 20_000):
+            before = [part.copy() for part in (thrown.sample.specific_force, thrown.sample.rate)]
     assert np.isfinite(before).all()
-    np.testing.assert_array_equal(simulation.sample.specific_force, before[0])
-    np.testing.assert_array_equal(simulation.sample.rate, before[1])
+    np.testing.assert_array_equal(thrown.sample.specific_force, before[0])
+    np.testing.assert_array_equal(thrown.sample.rate, before[1])
 
 
-@pytest.mark.property
+def test_a_vehicle_that_cannot_roll_is_refused(changed, simulation):
+    """Where the ground gives way under the vehicle, no run begins."""
+    with pytest.raises(CannotRoll, match=r"^the vehicle cannot roll at 5 m/s on a level road; check the vehicle file$"):
+        simulation(5.0, vehicle=changed("ground", stiffness=1e3))
+
+
 @pytest.mark.parametrize("speed", [0.0, 5.0, 10.0, 20.0])
-def test_vehicle_is_already_rolling(vehicle, speed):
-    """On a level road the speed is kept from the start; the first second brings less than 0.5 % of change."""
-    speeds = [s.state.tree.velocity[0, 0] for s in drive(vehicle, speed, Iso8608Road("A", 1, 1e4, 1.0), 1000)]
-    assert np.abs(np.array(speeds) - speed).max() <= max(0.005 * speed, 1e-6)
+def test_vehicle_is_already_rolling(simulation, level, speed):
+    """On a level road the vehicle has its speed from the start: the first second's mean is right to 0.5 %."""
+    speeds = [each.sample.hull_velocity[0, 0] for each in drive(simulation(speed), level, 1000)]
+    assert np.mean(speeds) == pytest.approx(speed, rel=5e-3, abs=1e-3)
 
 
-@pytest.mark.property
-def test_road_is_asked_for_as_far_as_a_slow_loop_goes(vehicle):
-    """At ten periods a second, 2.5 m of road go by in one; the wheels never roll beyond what is held."""
+@pytest.mark.parametrize("speed", [5.0, 20.0])
+def test_wheels_are_already_turning(simulation, vehicle, speed):
+    """At the start every wheel turns as fast as the track that runs by: at speed over radius, to 3 %.
+
+    The pin line's polygon and the rubber's deflection make the effective radius a little smaller or larger.
+    """
+    moving = simulation(speed)
+    wheels, rate = moving.system.tracks.wheels, moving.state.tree.hinge_rate
+    np.testing.assert_allclose(rate[wheels.row] * wheels.radius, speed, rtol=0.03)
+    sprocket = moving.system.tracks.sprockets
+    np.testing.assert_allclose(rate[sprocket.row] * sprocket.pitch_radius, speed, rtol=0.03)
+
+
+def test_road_is_asked_for_as_far_as_a_slow_loop_goes(vehicle, level):
+    """At ten periods a second, 2.5 m of road go by in one; the track never lies beyond what is held."""
     settings = RunSettings(Operation(25.0, 0.0, False), Rates(control=10, odometry=10), 1.0)
-    simulation = Simulation(vehicle, settings)
-    road = Iso8608Road("A", 1, 1e4, 1.0)
-    simulation.road.add(-20.0, 0.05, *road.heights(-400, 600))  # up to 9.95 m
-    front = max(vehicle.swing_arms.wheel_x) + vehicle.road_wheels.radius
-    while simulation.road_is_enough():
-        simulation.advance(np.ones(2))
-        assert simulation.distance + front < 9.95
+    moving = Simulation(vehicle, settings)
+    moving.road.add(-20.0, 0.05, *level.heights(-400, 600))  # up to 9.95 m
+    front = max(vehicle.idlers.x) + vehicle.tensioners.travel + vehicle.idlers.radius
+    while moving.road_is_enough():
+        moving.advance(np.ones(2))
+        assert moving.distance + front < 9.95
+    assert moving.periods > 0

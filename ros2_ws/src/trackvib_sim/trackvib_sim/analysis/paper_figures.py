@@ -151,9 +151,9 @@ def solver_picture(path, title, rate, force, levels):
         drawn = bars.bar(places + width * shift, values, width, color=COLOURS[sensor], label=label, **look)
         bars.bar_label(drawn, fmt="%.3f", fontsize=7, rotation=90, padding=3)
     bars.set_xticks(places, [axis.replace(" (", "\n(") for axis in AXES], fontsize=9)
-    bars.margins(y=0.12)
+    bars.margins(y=0.22)  # room for the legend
     _label(bars, None, "m/s²", "RMS acceleration")
-    bars.legend(fontsize=8, loc="upper left")
+    bars.legend(fontsize=8, loc="upper center", ncols=2)
     _save(figure, path)
 
 

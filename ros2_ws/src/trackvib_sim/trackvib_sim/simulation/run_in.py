@@ -8,7 +8,7 @@ from ..vehicle.tracks.initial import lay_tracks
 from ..vehicle.tracks.nodes import PLACE, STRIDE
 from .step import GOOD, Sensors, advance, new_sample
 
-DURATION = 3.0  # s; the slowest motion, of the driver's speed control, has a time constant of 0.45 s
+DURATION = 3.0  # s; the slowest motion, of the driver's speed control, has a time constant of 0.9 s
 _SPACING = 1.0  # m
 _BEHIND = 10.0  # m
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from dask.system import CPU_COUNT
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from ..installed import calibration_plan_file, default_vehicle_file, paper_table_file
 from ..vehicle.vehicle_file import parse_vehicle, read_vehicle
@@ -42,15 +42,16 @@ def perform(plan_file, vehicle_file, generations, scheduler, out):
         Plan, vehicle file or the folder cannot be used, or nothing can run.
     """
     vehicle, text = read_vehicle(vehicle_file or default_vehicle_file())
-    plan = read_plan(plan_file or calibration_plan_file(), text)
-    paper = read_table(paper_table_file())
+    given = read_table(paper_table_file())
+    plan = read_plan(plan_file or calibration_plan_file(), text, given)
+    paper = {row: given[row] for row in plan.rows}
     folder, console = Path(out), Console(highlight=False)
     folder.mkdir(parents=True, exist_ok=True)
     key = _key(text, plan, paper)
     history, around = (
         History(folder / name, key, plan.items, list(paper)) for name in ("history.csv", "sensitivity_runs.csv")
     )
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), TimeRemainingColumn())
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with farm(scheduler, CPU_COUNT) as client, Progress(*columns, console=console) as progress:
         candidates = Candidates(client, text, plan, cases(paper, plan.seeds), paper)
         start = plan.values(plan.shares([parameter.of(vehicle) for parameter in plan.parameters]))
@@ -70,17 +71,15 @@ def perform(plan_file, vehicle_file, generations, scheduler, out):
         f"objective {best.objective:.3f}, at the start {history.candidates[0].objective:.3f}; "
         f"error factor over {len(paper)} rows {error_factor(best.ratios, 1.0):.3f}"
     )
-    console.print(
-        f"left in {folder}: vehicle.yaml, calibration.md, convergence.png, sensitivity.png, sensitivity.csv, history.csv",
-        soft_wrap=True,
-    )
+    left = "vehicle.yaml, calibration.md, convergence.png, sensitivity.png, sensitivity.csv, history.csv"
+    console.print(f"left in {folder}: {left}", soft_wrap=True)
 
 
 def _key(vehicle_text, plan, paper):
     """Return a hash of all that decides about the candidates and their numbers."""
     asked = plan.model_dump_json(exclude={"generations"})  # more of them may be asked for later
-    rows = repr([(row, values.tolist()) for row, values in paper.items()])
-    return text_hash(vehicle_text + asked + rows + program())[:_HASH]
+    numbers = repr([values.tolist() for values in paper.values()])
+    return text_hash(vehicle_text + asked + numbers + program())[:_HASH]
 
 
 def _write_vehicle(path, text, plan, values):

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .case_store import whole_file
 from .paper_table import COLUMNS
 
 _KEYS = ("generation", "index", "objective", "scatter")
@@ -61,7 +62,7 @@ class History:
         head = f"# vehicle, plan, paper's rows and program: {key}\n{','.join((*_KEYS, *items, *names))}\n"
         self._path, self._values = path, len(items)
         if not path.exists():
-            path.write_text(head, encoding="utf-8")
+            _write(path, head)
         text = path.read_text(encoding="utf-8")
         if not text.startswith(head):
             raise HistoryError(
@@ -69,7 +70,7 @@ class History:
             )
         whole = text[: text.rfind("\n") + 1]
         if whole != text:  # the last line was cut short by a crash
-            path.write_text(whole, encoding="utf-8")
+            _write(path, whole)
         self.candidates = [self._candidate(line) for line in csv.reader(whole[len(head) :].splitlines())]
         self._known = {(each.generation, each.index): each for each in self.candidates}
 
@@ -97,3 +98,8 @@ class History:
         ratios = np.array([float(each or "nan") for each in numbers[self._values :]]).reshape(-1, len(COLUMNS))
         values = [float(each) for each in numbers[: self._values]]
         return Candidate(int(generation), int(index), float(objective), float(scatter), values, ratios)
+
+
+def _write(path, text):
+    with whole_file(path) as draft:
+        draft.write_text(text, encoding="utf-8")

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 import yaml
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from ..vehicle.vehicle_file import VehicleFileError, parse_vehicle
+from ..vehicle.vehicle_file import parse_vehicle
 from .vehicle_text import calibrated
 
 DIGITS = 4  # of every value that is tried, so that what the file says is what was run
@@ -80,6 +80,7 @@ class Parameter(_Strict):
 class Plan(_Strict):
     """The whole file."""
 
+    rows: Annotated[list[tuple[str, float]], Field(min_length=1)]  # of the paper's table: class, speed in m/s
     seeds: Annotated[int, Field(ge=1, le=100)]  # runs a row, each with its own road and track phase
     measuring: Annotated[float, Field(ge=1.0, le=60.0)]  # s of each run
     population: Annotated[int, Field(ge=4, le=1000)]  # candidates a generation
@@ -109,8 +110,10 @@ class Plan(_Strict):
         return [parameter.share(value) for parameter, value in zip(self.parameters, values, strict=True)]
 
 
-def read_plan(path, vehicle_text):
+def read_plan(path, vehicle_text, given):
     """Return the `Plan` in a YAML file, whose parameters and bounds a vehicle file accepts.
+
+    `given` are the rows (class, speed) that there are.
 
     Raises
     ------
@@ -125,14 +128,16 @@ def read_plan(path, vehicle_text):
         raise PlanError(f"{path}: not a YAML file: {error}") from None
     except ValidationError as error:
         raise PlanError("\n".join(_sentence(path, each) for each in error.errors())) from None
-    for parameter in plan.parameters:
-        for bound in (parameter.low, parameter.high):
-            try:
-                parse_vehicle(calibrated(vehicle_text, [parameter], [bound]), "vehicle file")
-            except VehicleFileError as error:
-                raise PlanError(f"{path}: bound {bound:g} of {parameter.item} is not accepted: {error}") from None
-            except ValueError as error:
-                raise PlanError(f"{path}: {error}") from None
+    for row in plan.rows:
+        if row not in given:
+            known = ", ".join(f"[{road_class}, {speed:g}]" for road_class, speed in given)
+            raise PlanError(f"{path}: rows: [{row[0]}, {row[1]:g}] is not in the paper's table, which gives {known}")
+    for side in ("low", "high"):
+        bounds = [getattr(parameter, side) for parameter in plan.parameters]
+        try:
+            parse_vehicle(calibrated(vehicle_text, plan.parameters, bounds), f"vehicle with all {side} bounds")
+        except ValueError as error:
+            raise PlanError(f"{path}: {error}") from None
     return plan
 
 

@@ -43,19 +43,22 @@ def _head(plan, history, rows, best, first):
     named = ", ".join(f"{road_class} at {speed:g}" for road_class, speed in rows)
     return f"""# Calibration
 
-{len(plan.parameters)} parameters of the vehicle, fitted to {len(rows)} rows of Table 1 of [Tao2025] (class {named} m/s): RMS over
-{BAND[0]:g}-{BAND[1]:g} Hz during {plan.measuring:g} s, {plan.seeds} runs a row. Objective: rms(log(ours / paper)) over all numbers,
-plus {BIAS_WEIGHT:g} times what the mean of log(ours / paper) of a column exceeds log({FREE_BIAS:g}), up or down, on average over the
-columns. Search: CMA-ES, {generations} generations of {plan.population}, seed {plan.seed}.
+{len(plan.parameters)} parameters of the vehicle, fitted to {len(rows)} rows of Table 1 of [Tao2025]
+(class {named} m/s).
+RMS over {BAND[0]:g}-{BAND[1]:g} Hz during {plan.measuring:g} s, {plan.seeds} runs a row.
+Objective: rms(log(ours / paper)) over all numbers, plus {BIAS_WEIGHT:g} times what the mean of log(ours / paper)
+of a column exceeds log({FREE_BIAS:g}), up or down, on average over the columns.
+Search: CMA-ES, {generations} generations of {plan.population}, seed {plan.seed}.
 
 | | start | calibrated |
 |---|---|---|
 | objective | {first.objective:.4f} | {best.objective:.4f} |
-| error factor | {error_factor(first.ratios, 1.0):.3f} | {error_factor(best.ratios, 1.0):.3f} |
+| error factor | {_plain(error_factor(first.ratios, 1.0))} | {_plain(error_factor(best.ratios, 1.0))} |
 
-The calibrated set is candidate {best.index} of generation {best.generation}. Of all that were tried its objective is the smallest,
-so partly by luck: the standard error of one of its numbers, from the scatter among its runs, is {100.0 * best.scatter:.1f} %. An honest
-comparison is `trackvib study table1` with `vehicle.yaml`, which drives over other roads.
+The calibrated set is candidate {best.index} of generation {best.generation}.
+Of all that were tried its objective is the smallest, so partly by luck: the standard error of one of its numbers,
+from the scatter among the runs of a row, is {_percent(best.scatter)}.
+An honest comparison is `trackvib study table1` with `vehicle.yaml`, which drives over other roads.
 """
 
 
@@ -63,7 +66,7 @@ def _columns(best, first):
     lines = ["## Mean bias of the columns", "", "Geometric mean of ours / paper, in the paper's axes.", ""]
     lines += ["| | " + " | ".join(COLUMNS) + " |", "|" + "---|" * (len(COLUMNS) + 1)]
     for name, candidate in (("start", first), ("calibrated", best)):
-        lines.append(_line(name, *(f"{bias:.3f}" for bias in column_bias(candidate.ratios, 1.0))))
+        lines.append(_line(name, *map(_plain, column_bias(candidate.ratios, 1.0))))
     return "\n".join(lines) + "\n"
 
 
@@ -71,8 +74,7 @@ def _rows(rows, best):
     lines = ["## Rows", "", "Ours / paper of the calibrated set.", ""]
     lines += ["| class | m/s | " + " | ".join(COLUMNS) + " | factor |", "|" + "---|" * (len(COLUMNS) + 3)]
     for (road_class, speed), ratios in zip(rows, best.ratios, strict=True):
-        cells = [f"{ratio:.3f}" for ratio in ratios]
-        lines.append(_line(road_class, f"{speed:g}", *cells, f"{error_factor(ratios, 1.0):.3f}"))
+        lines.append(_line(road_class, f"{speed:g}", *map(_plain, (*ratios, error_factor(ratios, 1.0)))))
     return "\n".join(lines) + "\n"
 
 
@@ -80,10 +82,11 @@ def _parameters(plan, start, best, neighbours, sensitive):
     lines = [
         "## Parameters",
         "",
-        f"The set is not unique: {len(neighbours)} candidates, the best one among them, have an objective at most {100.0 * (ALIKE - 1.0):.0f} % "
-        "above the best; the table gives the range that they span. Strength: root mean square, over all numbers of the table, of the "
-        f"change of the RMS when the parameter moves by {100.0 * PER:.0f} % of its range, from runs at ±{100.0 * REACH:.0f} %; "
-        f"its noise is {100.0 * sensitive.noise:.1f} %. The strongest first.",
+        f"The set is not unique: {len(neighbours)} candidates, the best one among them, have an objective at most "
+        f"{100.0 * (ALIKE - 1.0):.0f} % above the best; the table gives the range that they span.",
+        "Strength: root mean square, over all numbers of the table, of the change of the RMS when the parameter moves "
+        f"by {100.0 * PER:.0f} % of its range, from runs {100.0 * REACH:.0f} % below and above; "
+        f"its noise is {_percent(sensitive.noise)}. The strongest first.",
         "",
         "| parameter | low | high | scale | start | calibrated | near a bound | neighbours | strength |",
         "|" + "---|" * 9,
@@ -101,7 +104,7 @@ def _parameters(plan, start, best, neighbours, sensitive):
                 *(f"{each:g}" for each in (start[k], value)),
                 near,
                 f"{min(others):g} to {max(others):g}",
-                f"{100.0 * sensitive.strength[k]:.1f} %" if np.isfinite(sensitive.strength[k]) else "-",
+                _percent(sensitive.strength[k]),
             )
         )
     return "\n".join([*lines, "", "![search](convergence.png)", "", "![sensitivity](sensitivity.png)"]) + "\n"
@@ -114,3 +117,11 @@ def _sources(plan):
 
 def _line(*cells):
     return f"| {' | '.join(cells)} |"
+
+
+def _plain(value):
+    return f"{value:.3f}" if np.isfinite(value) else "-"
+
+
+def _percent(value):
+    return f"{100.0 * value:.1f} %" if np.isfinite(value) else "not known"

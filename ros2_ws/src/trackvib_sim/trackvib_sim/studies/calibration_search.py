@@ -3,6 +3,7 @@
 [Hansen2016] N. Hansen, The CMA evolution strategy: a tutorial, arXiv 1604.00772.
 """
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import cma
@@ -50,20 +51,25 @@ class Candidates(NamedTuple):
         for number, result in finished(self.client, attempt, tasks) if tasks else ():
             k, case = divmod(number, count)
             results[k][case] = result
-            advance(1)
             if len(results[k]) == count:
                 place, values = missing[k]
                 found, scatter = ratios([results[k][case] for case in range(count)], self.paper)
                 history.append(Candidate(*place, objective(found), scatter, values, found))
+            advance(1)
         return [history.find(*place, values) for place, values in wanted.items()]
 
 
 def attempt(vehicle_text, case, duration):
     """Return the `drive.Result` of a case; a vehicle that cannot be built or cannot stand has failed, too."""
     try:
-        return drive(parse_vehicle(vehicle_text, "candidate"), case, duration)
+        return drive(_vehicle(vehicle_text), case, duration)
     except ValueError as error:
         return Result(f"failed: {error}", {}, None)
+
+
+@lru_cache(maxsize=4)  # reading takes a tenth of a run's time, and one candidate's runs come one after the other
+def _vehicle(text):
+    return parse_vehicle(text, "candidate")
 
 
 def search(candidates, history, start, generations, progress):
@@ -82,11 +88,7 @@ def search(candidates, history, start, generations, progress):
     """
     plan, runs = candidates.plan, len(candidates.cases)
     task = progress.add_task("start", total=(1 + generations * plan.population) * runs)
-
-    def evaluate(wanted):
-        return candidates.evaluate(history, wanted, lambda done: progress.advance(task, done))
-
-    evaluate({(0, 0): start})
+    candidates.evaluate(history, {(0, 0): start}, lambda done: progress.advance(task, done))
     options = {
         "bounds": [0.0, 1.0],
         "popsize": plan.population,
@@ -96,12 +98,12 @@ def search(candidates, history, start, generations, progress):
     }
     strategy = cma.CMAEvolutionStrategy(plan.shares(start), STEP, options)
     for generation in range(1, generations + 1):
-        best = history.best
-        progress.update(
-            task,
-            description=f"generation {generation}/{generations}, best objective {best.objective:.3f}, "
-            f"typical factor {error_factor(best.ratios, 1.0):.3f}",
-        )
+
+        def advance(done, of=f"generation {generation}/{generations}"):
+            best = history.best
+            now = f"{of}, objective {best.objective:.3f}, factor {error_factor(best.ratios, 1.0):.3f}"
+            progress.update(task, advance=done, description=now)
+
         shares = strategy.ask()
         wanted = {(generation, index): plan.values(each) for index, each in enumerate(shares)}
-        strategy.tell(shares, [candidate.objective for candidate in evaluate(wanted)])
+        strategy.tell(shares, [candidate.objective for candidate in candidates.evaluate(history, wanted, advance)])

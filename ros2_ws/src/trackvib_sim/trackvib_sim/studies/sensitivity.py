@@ -20,7 +20,7 @@ class Sensitivity(NamedTuple):
     @property
     def strength(self):
         """Root mean square (parameters,) of the changes over all numbers."""
-        return np.sqrt(np.nanmean(np.square(self.change), axis=(1, 2)))
+        return np.sqrt(np.ma.masked_invalid(np.square(self.change)).mean(axis=(1, 2)).filled(np.nan))
 
     @property
     def order(self):
@@ -48,8 +48,9 @@ def sensitivity(candidates, history, values, progress):
     for k, (below, above) in enumerate(zip(low, high, strict=True)):
         distance.append(plan.shares(above.values)[k] - plan.shares(below.values)[k])
         change.append(PER / distance[k] * np.log(above.ratios / below.ratios))
-    scatter = np.sqrt(np.nanmean(np.square([candidate.scatter for candidate in found])))
-    return Sensitivity(np.array(change), float(np.sqrt(2.0) * scatter * PER / np.median(distance)))
+    squares = np.ma.masked_invalid([candidate.scatter**2 for candidate in found])
+    noise = np.sqrt(2.0 * squares.mean()) * PER / np.median(distance)
+    return Sensitivity(np.array(change), float(np.ma.filled(noise, np.nan)))
 
 
 def write_sensitivity(path, plan, rows, sensitive):

@@ -3,6 +3,7 @@
 import json
 import re
 
+import numpy as np
 import yaml
 
 _WITHIN = re.compile(r"(^|; )(\[\d+\] )?within \S+ to \S+")
@@ -40,9 +41,7 @@ def number(value):
     """Return a number as YAML 1.1 and 1.2 read it, large and small ones with an exponent."""
     if value == 0.0 or 1e-4 <= abs(value) < 1e5:
         return repr(float(value))
-    mantissa, exponent = f"{value:e}".split("e")
-    digits = mantissa.rstrip("0")
-    return f"{digits}{'0' if digits.endswith('.') else ''}e{int(exponent):+d}"
+    return np.format_float_scientific(value, trim="0", exp_digits=1)
 
 
 def _quantity(root, parameter):

@@ -4,9 +4,12 @@ from math import pi
 
 import numpy as np
 
+from ..body_tree import GRAVITY, body_table
 from .layout import lay_track, sink
 from .nodes import STRIDE
 from .sprockets import pitch_radius
+
+DRAG = 0.06  # of the weight, rolling resistance that the driver expects
 
 
 def lay_tracks(vehicle, system, state, speed, phase):
@@ -19,6 +22,8 @@ def lay_tracks(vehicle, system, state, speed, phase):
     n, radius = tracks.chain.links, pitch_radius(vehicle)
     state.tree.position[0] = (0.0, 0.0, height)
     state.tree.velocity[0] = (speed, 0.0, 0.0)
+    if speed > 0.0:
+        state.speed_integral[0] = DRAG * sum(body.mass for body in body_table(vehicle)) * GRAVITY
     state.tree.hinge_rate[tracks.wheels.row] = speed / tracks.wheels.radius
     state.tree.hinge_rate[tracks.sprockets.row] = speed / radius
     state.tracks.tensioner.travel[:] = travel
