@@ -49,7 +49,7 @@ def test_interrupted_and_continued_is_the_same_as_at_one_go(start_cli, tmp_path,
     assert len(lines(whole / "history.csv")) == 2 + 1 + 2 * 4
 
     process = start_cli("study", "calibrate", "--plan", plan, "--out", parts, "--generations", 1)
-    end = time.monotonic() + 60.0
+    end = time.monotonic() + 90.0
     while not ((parts / "history.csv").exists() and len(lines(parts / "history.csv")) > 3):
         assert process.running and time.monotonic() < end, process.output
         time.sleep(0.02)

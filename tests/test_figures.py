@@ -45,8 +45,8 @@ def test_is_interrupted_goes_on_and_draws(start_cli, tmp_path):
     assert all(f"]({name})" in text for name in PICTURES)
     assert 0.0 < float(re.search(r"largest one, was \*\*(.+?)\*\*", text)[1]) < SOLVERS_AGREE
     differences = re.findall(r"\| ([-+][\d.]+)% \|$", text, re.MULTILINE)
-    # contacts part the two runs, so that RMS values agree as those of two seeds do or better
-    assert len(differences) == 6 and max(abs(float(each)) for each in differences) < 10.0
+    # contacts amplify rounding until only the statistics of the two runs, over five seconds, agree: 6 % seen
+    assert len(differences) == 6 and max(abs(float(each)) for each in differences) < 25.0
 
 
 def test_refuses_in_one_line(start_cli, tmp_path):

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import settings
 from scipy.spatial.transform import Rotation
 from trackvib_sim.installed import default_vehicle_file
+from trackvib_sim.road.feeder import RoadFeeder
 from trackvib_sim.rui.cells import columns
 from trackvib_sim.rui.cuts import CUT, FORCE, MOMENT, TORQUE, new_cuts, open_cuts
 from trackvib_sim.rui.kinematics import new_motion, update_motion
@@ -16,7 +17,7 @@ from trackvib_sim.rui.state import Loads, TreeState, rest_state
 from trackvib_sim.rui.table import Body, Hinge
 from trackvib_sim.rui.tree import new_rows, to_lanes
 from trackvib_sim.simulation.settings import Rates, RunSettings
-from trackvib_sim.simulation.simulation import Simulation
+from trackvib_sim.simulation.simulation import HORIZON, Simulation
 from trackvib_sim.vehicle.body_tree import body_table
 from trackvib_sim.vehicle.system import Operation, build_system
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
@@ -249,6 +250,21 @@ def simulation(vehicle):
         return Simulation(vehicle, RunSettings(operation, Rates(physics=physics), 1.0), probes)
 
     return make
+
+
+@pytest.fixture(scope="session")
+def drive():
+    """A function `drive(simulation, road, periods)` that advances a simulation with 1 A and yields it each period."""
+
+    def drive_on(simulation, road, periods):
+        feeder = RoadFeeder(road, HORIZON)
+        for _ in range(periods):
+            for start, spacing, heights in feeder.patches(simulation.distance):
+                simulation.road.add(start, spacing, *heights)
+            simulation.advance(np.ones(2))
+            yield simulation
+
+    return drive_on
 
 
 @pytest.fixture(scope="session")

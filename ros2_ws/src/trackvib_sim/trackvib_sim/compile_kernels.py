@@ -3,8 +3,9 @@
 from mr_mount_controller.laws.passive import Passive
 
 from .installed import default_vehicle_file
-from .road.iso8608 import Iso8608Road
+from .road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road
 from .simulation.closed_loop import run_closed_loop
+from .simulation.open_loop import run_open_loop
 from .simulation.settings import NANO, Rates, RunSettings
 from .simulation.simulation import Simulation
 from .vehicle.system import Operation
@@ -12,11 +13,13 @@ from .vehicle.vehicle_file import read_vehicle
 
 
 def main():
-    """Run the closed loop for two periods."""
+    """Run both loops in one process for two periods."""
     vehicle, _ = read_vehicle(default_vehicle_file())
     settings = RunSettings(Operation(10.0, 1650.0, False), Rates(), 1.0)
     simulation = Simulation(vehicle, settings)
-    run_closed_loop(simulation, Iso8608Road("E", 1, 8.0, 8.0), Passive(settings.rates.period / NANO), 2)
+    road = Iso8608Road("E", 1, LEVEL_UNTIL, FADE)
+    run_closed_loop(simulation, road, Passive(settings.rates.period / NANO), 2)
+    run_open_loop(simulation, road, 2)
 
 
 if __name__ == "__main__":

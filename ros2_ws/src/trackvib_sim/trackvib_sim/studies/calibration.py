@@ -77,7 +77,8 @@ def perform(plan_file, vehicle_file, generations, scheduler, out):
 
 def _key(vehicle_text, plan, paper):
     """Return a hash of all that decides about the candidates and their numbers."""
-    asked = plan.model_dump_json(exclude={"generations"})  # more of them may be asked for later
+    # more generations may be asked for later, and sources put into better words
+    asked = plan.model_dump_json(exclude={"generations": True, "parameters": {"__all__": {"source"}}})
     numbers = repr([values.tolist() for values in paper.values()])
     return text_hash(vehicle_text + asked + numbers + program())[:_HASH]
 

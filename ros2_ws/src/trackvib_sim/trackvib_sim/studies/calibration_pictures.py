@@ -32,7 +32,7 @@ def convergence_picture(path, plan, candidates):
     top.set_yscale("log")
     for formatter in (top.yaxis.set_major_formatter, top.yaxis.set_minor_formatter):
         formatter("{x:g}")
-    top.xaxis.set_major_locator(MaxNLocator(integer=True))
+    top.xaxis.set_major_locator(MaxNLocator(5, integer=True))  # of all panels: they share the axis
     top.set_ylabel("objective")
     top.set_xlabel("candidate, in the order of evaluation")
     top.legend()
@@ -46,7 +46,7 @@ def convergence_picture(path, plan, candidates):
         panel.set_yscale(parameter.scale)
         panel.set_ylim(parameter.low, parameter.high)
         panel.set_title(parameter.item, fontsize=8)
-        panel.tick_params(labelsize=7)
+        panel.tick_params(which="both", labelsize=7)
     figure.suptitle("Calibration: dark is good, the ring is the best; panels reach from bound to bound", fontsize=12)
     figure.savefig(path, dpi=110, format="png")
     plt.close(figure)
@@ -61,6 +61,7 @@ def sensitivity_picture(path, plan, rows, sensitive):
     figure, panels = plt.subplots(1, 6, figsize=size, sharey=True, layout="constrained")
     for column, panel in enumerate(panels):
         image = panel.imshow(change[:, :, column], cmap="RdBu_r", vmin=-limit, vmax=limit, aspect="auto")
+        panel.set_facecolor("0.6")  # where a run failed
         panel.set_title(f"{SENSORS[column // 3]}\n{AXES[column % 3]}", fontsize=9)
         names = [f"{road_class} {speed:g}" for road_class, speed in rows]
         panel.set_xticks(range(count), names, rotation=90, fontsize=7)
@@ -69,6 +70,7 @@ def sensitivity_picture(path, plan, rows, sensitive):
     bar = figure.colorbar(image, ax=panels.tolist(), pad=0.01, aspect=30)
     bar.set_label(f"change of RMS for +{100.0 * PER:.0f} % of the range, %", fontsize=9)
     noise = f"; noise {100.0 * sensitive.noise:.1f} %" if np.isfinite(sensitive.noise) else ""
-    figure.suptitle(f"Sensitivity at the calibrated set, the strongest parameter first{noise}", fontsize=12)
+    title = "Sensitivity at the calibrated set, the strongest parameter first; grey: a run failed"
+    figure.suptitle(title + noise, fontsize=12)
     figure.savefig(path, dpi=110, format="png")
     plt.close(figure)

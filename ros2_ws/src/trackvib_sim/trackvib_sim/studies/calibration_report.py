@@ -86,7 +86,7 @@ def _parameters(plan, start, best, neighbours, sensitive):
         f"{100.0 * (ALIKE - 1.0):.0f} % above the best; the table gives the range that they span.",
         "Strength: root mean square, over all numbers of the table, of the change of the RMS when the parameter moves "
         f"by {100.0 * PER:.0f} % of its range, from runs {100.0 * REACH:.0f} % below and above; "
-        f"its noise is {_percent(sensitive.noise)}. The strongest first.",
+        f"noise alone gives {_percent(sensitive.noise)}. The strongest first.",
         "",
         "| parameter | low | high | scale | start | calibrated | near a bound | neighbours | strength |",
         "|" + "---|" * 9,

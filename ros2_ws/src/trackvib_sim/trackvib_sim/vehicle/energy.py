@@ -14,12 +14,12 @@ from ..rui.cells import get3, get6
 from ..rui.compiled import kernel
 from ..rui.cuts import FORCE, MOMENT
 from ..rui.kinematics import ORIGIN, RATE, VELOCITY, motion_vector, rotation, update_motion
-from ..rui.spatial import add, cross, dot, rotate, symmetric_product, turn_inertia
+from ..rui.spatial import cross, dot, rotate, symmetric_product, turn_inertia
 from ..rui.tree import FOOT_SHARE, INERTIA, MASS, MASS_MOMENT, SHARE
 from .driver import add_driver
 from .engine import add_engine, imposed_displacement
 from .hinge_springs import add_hinge_springs
-from .mr_mounts import add_mounts, mount_characteristics, mount_deflection, mount_force
+from .mr_mounts import mount_characteristics, mount_deflection, mount_force
 from .suspension import add_suspension
 from .tracks.nodes import SHEAR, STRIDE
 from .tracks.nodes import VELOCITY as NODE_VELOCITY

@@ -92,6 +92,7 @@ class Teeth(Section):
     flank_angle: scalar("deg", ge=0.0, le=60.0)
     backlash: Gain("m")
     height: Length
+    corner_radius: Length
     stiffness: scalar("N/m", gt=0.0)
     damping: Gain("N s/m")
     guide_stiffness: Gain("N/m")

@@ -1,8 +1,8 @@
 """Sprockets: tooth by tooth contact of the pins.
 
 A pin between two teeth rests on the seat, at the pitch circle, and is driven by a flank. Flanks are straight and open
-outwards by the flank angle; between pin and flank there is backlash. A pin that comes in on the taut track must pass
-the tip of the tooth, and with a sprocket pitch other than the track's the load jumps from tooth to tooth. That, at the
+outwards by the flank angle and end in a tip with round corners; between pin and flank there is backlash. A pin that
+comes in on the taut track must pass the corner, and with a sprocket pitch other than the track's the load jumps from tooth to tooth. That, at the
 link-passing frequency v/p, is the strongest excitation of the vehicle. Every force but damping is the gradient of a
 potential without jumps, so that teeth make no energy.
 """
@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...rui.compiled import kernel
+from ...rui.compiled import inlined, kernel
 from ..body_tree import SIDES, SPROCKET
 from .nodes import CONTACT, STRIDE
 from .wheels import HEAT, MOST_MOVES, STORED, add_reaction
@@ -29,6 +29,7 @@ class Sprockets(NamedTuple):
     sine: float
     backlash: float  # m from a pin in the middle to the flank, at the pitch circle
     tip_radius: float  # m
+    corner: float  # radius of the tip's corner as the pins' centres see it, m
     stiffness: float  # N/m
     damping: float  # N s/m
     guide_stiffness: float  # N/m
@@ -53,6 +54,7 @@ def sprockets(vehicle, rows):
         sine=np.sin(angle),
         backlash=s.backlash,
         tip_radius=pitch_radius(vehicle) + s.height,
+        corner=s.corner_radius,
         stiffness=s.stiffness,
         damping=s.damping,
         guide_stiffness=s.guide_stiffness,
@@ -102,17 +104,14 @@ def add_sprocket(sprockets, hub, angle, rear, n, work, load):
                 radial = max(0.0, s.stiffness * seat - s.damping * outwards)
                 load[HEAT] += outwards * (s.stiffness * seat - radial)
                 load[STORED] += 0.5 * s.stiffness * seat * seat
-            flank = (abs(off) * distance - s.backlash - s.slope * max(-seat, 0.0)) * s.cosine
-            if flank > 0.0:
-                depth, edge = flank, s.tip_radius - distance
-                # gradient of the depth along the circumference and with distance
-                across, opening = turn * s.cosine, abs(off) * s.cosine - (s.sine if seat <= 0.0 else 0.0)
-                if edge < flank:  # a pin that misses the gap meets the tip
-                    depth, across, opening = edge, 0.0, -1.0
-                closing = across * along + opening * outwards
+            depth, across, outward = _in_tooth(s, abs(off) * distance, distance)
+            if depth > 0.0:
+                # the way along the circumference grows with distance as well
+                across, outward = turn * across, outward + abs(off) * across
+                closing = across * along + outward * outwards
                 push = max(0.0, s.stiffness * depth + s.damping * closing)
                 tangential = -across * push
-                radial -= opening * push
+                radial -= outward * push
                 load[HEAT] += closing * (push - s.stiffness * depth)
                 load[STORED] += 0.5 * s.stiffness * depth * depth
             if radial != 0.0 or tangential != 0.0:
@@ -126,3 +125,27 @@ def add_sprocket(sprockets, hub, angle, rear, n, work, load):
                     work[(CONTACT + axis) * STRIDE + i] += force[axis]
                 add_reaction(load, (dx, sideways, dz), force)
         i = i + 1 if i < n else 1
+
+
+@inlined
+def _in_tooth(s, way, distance):
+    """Return how deep a pin is in a tooth [m], and the depth's gradient along the circumference and outwards.
+
+    `way` [m] is that along the circumference from the middle of the gap. Flank and tip of the tooth are straight; their
+    corner is round: beyond both lines of its centre the depth is that in a circle.
+    """
+    above = distance - s.pitch_radius
+    flank = (way - s.backlash - s.slope * max(above, 0.0)) * s.cosine
+    if flank <= 0.0:
+        return 0.0, 0.0, 0.0
+    to_flank, to_tip = s.corner - flank, s.corner - (s.tip_radius - distance)  # from the corner's centre
+    # the way from that centre to the pin, in parts along the normals of flank and tip
+    on_flank = (to_flank - s.sine * to_tip) / (s.cosine * s.cosine)
+    on_tip = (to_tip - s.sine * to_flank) / (s.cosine * s.cosine)
+    if on_tip <= 0.0:
+        return flank, s.cosine, -s.sine if above > 0.0 else 0.0
+    if on_flank <= 0.0:
+        return s.tip_radius - distance, 0.0, -1.0
+    from_centre = np.sqrt(on_flank * to_flank + on_tip * to_tip)
+    outward = -(s.sine * on_flank + on_tip) / from_centre
+    return s.corner - from_centre, s.cosine * on_flank / from_centre, outward

@@ -1,0 +1,76 @@
+"""The whole vehicle in one process and on one core: how much faster than real time it runs, and in calls of Pinocchio's aba.
+
+    ./trackvib exec -- python bench/vehicle.py
+
+Body tree, two tracks, MR mounts and engine on a road of class E at 10 m/s, in steps of 1e-4 s. Beside it, in turns, the
+articulated-body algorithm of Pinocchio evaluates the body tree alone (its call from Python taken off, see
+bench/body_tree.py): the unit in which machines of different speed can be compared.
+"""
+
+import numpy as np
+from machine import best_times, machine
+from peers import PinocchioTree
+from rich.console import Console
+from rich.table import Table
+from trackvib_sim.installed import default_vehicle_file
+from trackvib_sim.road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road
+from trackvib_sim.rui.state import rest_state
+from trackvib_sim.simulation.settings import Rates, RunSettings
+from trackvib_sim.simulation.simulation import Simulation
+from trackvib_sim.vehicle.body_tree import body_table
+from trackvib_sim.vehicle.system import Operation
+from trackvib_sim.vehicle.vehicle_file import read_vehicle
+
+SPEED = 10.0  # m/s
+ENGINE_SPEED = 1650.0  # r/min
+CHUNK = 250  # control periods of 1 ms at a time
+CALLS, ROUNDS = 2000, 40
+GRAVITY = (0.0, 0.0, -9.81)
+
+
+class Drive:
+    """A vehicle that drives on, chunk after chunk."""
+
+    def __init__(self, vehicle):
+        settings = RunSettings(Operation(SPEED, ENGINE_SPEED, False), Rates(), 1.0)
+        self._simulation = Simulation(vehicle, settings)
+        length = 50.0 + SPEED * (ROUNDS + 2) * CHUNK / settings.rates.control
+        road, spacing = Iso8608Road("E", 1, LEVEL_UNTIL, FADE), 0.05
+        first = round(-20.0 / spacing)
+        self._simulation.road.add(first * spacing, spacing, *road.heights(first, round(length / spacing) - first))
+        self._force, self._speed = np.empty((CHUNK, 2, 3)), np.empty(CHUNK)
+        while self._simulation.distance < LEVEL_UNTIL + FADE:  # onto the full roughness
+            self()
+
+    def __call__(self):
+        self._simulation.advance_many(np.ones(2), self._force, self._speed)
+
+
+def main():
+    """Drive, time, print."""
+    vehicle, _ = read_vehicle(default_vehicle_file())
+    bodies = body_table(vehicle)
+    drive = Drive(vehicle)
+    peers = {"tree": PinocchioTree(bodies, GRAVITY), "one body": PinocchioTree(bodies[:1], GRAVITY)}
+    for name, peer in peers.items():
+        state = rest_state(bodies if name == "tree" else bodies[:1])
+        peer.accelerations(state, np.zeros(len(state.hinge)))
+    conventions = peers["tree"].calls(CALLS).keys()
+    tasks = {(name, how): peer.calls(CALLS)[how] for name, peer in peers.items() for how in conventions}
+    times = best_times({"vehicle": drive, **tasks}, ROUNDS)
+    aba = min(times["tree", how] - times["one body", how] for how in conventions) / CALLS
+    simulated = CHUNK * 1e-3
+    factor, calls = simulated / times["vehicle"], times["vehicle"] / simulated / aba
+
+    table = Table(title=f"The whole vehicle, class E, {SPEED:g} m/s, one core of {machine()}")
+    for column in ("what", "time, us"):
+        table.add_column(column, justify="left" if column == "what" else "right")
+    table.add_row("vehicle, one step of 1e-4 s", f"{1e6 * times['vehicle'] / (10 * CHUNK):.2f}")
+    table.add_row("Pinocchio aba, body tree alone", f"{1e6 * aba:.2f}")
+    Console().print(table)
+    print(f"real time factor = {factor:.1f}")
+    print(f"aba calls per simulated second = {calls:.0f}")
+
+
+if __name__ == "__main__":
+    main()
