@@ -25,6 +25,63 @@ def random_table():
     return _random_table
 
 
+# Parent row of every body after the root, and which of them hang on elastic hinges where those are asked for.
+SHAPES = {
+    "single": ((), ()),
+    "chain": ((0, 1, 2, 3, 4, 5), (3,)),
+    "bush": ((0,) * 12, ()),
+    "branches": ((*(0,) * 9, *range(1, 10), *range(1, 9), 9, 18), ()),
+    "stalk": ((0, *(1,) * 16, 2, 2), ()),
+    "hung": ((0, *(0,) * 9, *(1,) * 10, 12), (1, 21)),
+}
+
+
+@pytest.fixture(scope="session")
+def shaped_table():
+    """A function `shaped_table(shape, seed, kinds)` that returns a random table of one of `SHAPES`, a state and loads.
+
+    `kinds` are hinge kinds to choose from; "prescribed" is a revolute or slide whose motion is given, and "elastic"
+    makes the hinges so that the shape says so. Bodies are boxes of 1 to 100 kg; everything turns and moves.
+    """
+
+    def make(shape, seed, kinds=("revolute", "slide")):
+        random, (parents, elastic) = np.random.default_rng(seed), SHAPES[shape]
+        bodies = []
+        for row, parent in enumerate((None, *parents)):
+            hinge = None
+            if row:
+                free = "elastic" in kinds and row in elastic
+                kind = "elastic" if free else str(random.choice([kind for kind in kinds if kind != "elastic"]))
+                hinge = _random_hinge(random, 100 + row, kind, bodies[parent].name)
+            mass, sides = 10.0 ** random.uniform(0.0, 2.0), random.uniform(0.3, 1.2, 3)
+            turn = Rotation.random(rng=random).as_matrix()
+            inertia = turn @ np.diag(mass / 12.0 * (np.sum(sides**2) - sides**2)) @ turn.T
+            bodies.append(Body(1 + row, f"b{row}", mass, 0.2 * random.normal(size=3), inertia, hinge))
+        n, state = len(bodies), rest_state(bodies)
+        free = len(state.position)
+        # near rest, so that elastic hinges stay near their undeformed place; then turned as a whole
+        turn = Rotation.random(rng=random)
+        attitude = turn * Rotation.from_rotvec(0.3 * random.normal(size=(free, 3)))
+        state = TreeState(
+            position=turn.apply(state.position + 0.05 * random.normal(size=(free, 3))) + random.normal(size=3),
+            attitude=attitude.as_quat(scalar_first=True),
+            velocity=random.normal(size=(free, 3)),
+            rate=random.normal(size=(free, 3)),
+            hinge=0.3 * random.normal(size=n),
+            hinge_rate=random.normal(size=n),
+        )
+        driven = [body.hinge is not None and body.hinge.prescribed for body in bodies]
+        loads = Loads(
+            force=100.0 * random.normal(size=(n, 3)),
+            moment=100.0 * random.normal(size=(n, 3)),
+            torque=100.0 * random.normal(size=n),
+            acceleration=np.where(driven, 10.0 * random.normal(size=n), 0.0),
+        )
+        return bodies, state, loads
+
+    return make
+
+
 @pytest.fixture(scope="session")
 def pinocchio():
     """A function `pinocchio(bodies, state, loads, gravity)` that returns `Accelerations`: ABA and RNEA of Pinocchio.

@@ -173,17 +173,18 @@ def _press(rim, hub, share, weight, i, j, work, load):
     distance = np.sqrt(dx * dx + dz * dz)
     nx, nz = dx / distance, dz / distance
     depth, leaving = rim.radius - distance, vx * nx + vz * nz
-    normal = max(0.0, rim.stiffness * depth - rim.damping * leaving)
+    on = max(weight, 0.0)  # the pin that counts less takes no damping off
+    normal = max(0.0, rim.stiffness * depth - on * rim.damping * leaving)
     # the rim moves along (nz, -nx) when the wheel rolls forward
     slip = vx * nz - vz * nx - hub.spin * distance
-    drag = rim.friction * normal * slip / np.sqrt(slip * slip + CREEP * CREEP)
-    guide = rim.guide_stiffness * sideways + rim.guide_damping * vy
+    drag = on * rim.friction * normal * slip / np.sqrt(slip * slip + CREEP * CREEP)
+    guide = rim.guide_stiffness * sideways + on * rim.guide_damping * vy
     force = (weight * (normal * nx - drag * nz), -weight * guide, weight * (normal * nz + drag * nx))
     for axis in range(3):
         work[(CONTACT + axis) * STRIDE + i] += rest * force[axis]
         work[(CONTACT + axis) * STRIDE + j] += share * force[axis]
     add_reaction(load, (dx, sideways, dz), force)
-    load[HEAT] += weight * (leaving * (rim.stiffness * depth - normal) + drag * slip + rim.guide_damping * vy * vy)
+    load[HEAT] += weight * (leaving * (rim.stiffness * depth - normal) + drag * slip + on * rim.guide_damping * vy * vy)
     load[STORED] += weight * 0.5 * (rim.stiffness * depth * depth + rim.guide_stiffness * sideways * sideways)
 
 
