@@ -1,4 +1,4 @@
-"""The whole vehicle in one process and on one core: how much faster than real time it runs, and in calls of Pinocchio's aba.
+"""The whole vehicle in one process on one core: how much faster than real time, and in calls of Pinocchio's aba.
 
     ./trackvib exec -- python bench/vehicle.py
 

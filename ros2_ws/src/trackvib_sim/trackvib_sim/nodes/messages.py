@@ -7,6 +7,7 @@ from trackvib_msgs.msg import MountState
 
 from ..simulation.settings import NANO
 from . import topics
+from .packed_message import PackedMessage
 
 
 def set_stamp(message, nanoseconds):
@@ -23,35 +24,28 @@ class ImuMessage:
     """Specific force and angular velocity of one sensor (REP-145); attitude is not measured."""
 
     def __init__(self, frame):
-        self._message = Imu()
-        self._message.header.frame_id = frame
-        self._message.orientation_covariance[0] = -1.0
+        message = Imu()
+        message.header.frame_id = frame
+        message.orientation_covariance[0] = -1.0
+        self._packed = PackedMessage(message, {"linear_acceleration": 3, "angular_velocity": 3})
 
     def fill(self, stamp, specific_force, rate):
-        """Return the message; vectors of 3 floats in body axes, m/s^2 and rad/s."""
-        set_stamp(self._message, stamp)
-        set_vector(self._message.linear_acceleration, specific_force)
-        set_vector(self._message.angular_velocity, rate)
-        return self._message
+        """Return the message's bytes; vectors (3,) in body axes, m/s^2 and rad/s."""
+        return self._packed.fill(stamp, linear_acceleration=specific_force, angular_velocity=rate)
 
 
 class MountMessage:
     """State of both mounts."""
 
     def __init__(self):
-        self._message = MountState()
-        self._message.header.frame_id = topics.HULL_FRAME
+        message = MountState()
+        message.header.frame_id = topics.HULL_FRAME
+        fields = dict.fromkeys(("current", "stiffness", "damping", "dissipated_power"), 2)
+        self._packed = PackedMessage(message, fields | dict.fromkeys(("deflection", "velocity", "force"), 6))
 
     def fill(self, stamp, sample):
-        """Return the message for a `vehicle.mr_mounts.MountSample`."""
-        m = self._message
-        set_stamp(m, stamp)
-        m.current, m.stiffness, m.damping = sample.current, sample.stiffness, sample.damping
-        m.dissipated_power = sample.dissipated_power
-        for name in ("deflection", "velocity", "force"):
-            for vector, values in zip(getattr(m, name), getattr(sample, name).tolist(), strict=True):
-                set_vector(vector, values)
-        return m
+        """Return the message's bytes for a `vehicle.mr_mounts.MountSample`."""
+        return self._packed.fill(stamp, **sample._asdict())
 
 
 class OdometryMessage:

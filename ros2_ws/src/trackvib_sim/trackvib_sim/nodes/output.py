@@ -50,8 +50,7 @@ class SimulatorOutput:
     def publish_sample(self):
         """Publish the sample of the last period; odometry and clock where it is their turn."""
         simulation, stamp = self._simulation, self._simulation.time
-        force = simulation.sample.specific_force.tolist()
-        rate = simulation.sample.rate.tolist()
+        force, rate = simulation.sample.specific_force, simulation.sample.rate
         # the accelerations first: whoever answers them works while the rest is published
         for sensor in (CHASSIS, POWERTRAIN):
             self._imu_out[sensor].publish(self._imus[sensor].fill(stamp, force[sensor], rate[sensor]))

@@ -1,4 +1,4 @@
-"""The state in which a run begins: tracks laid at pretension, then rolled in on a level road until everything is settled."""
+"""The state in which a run begins: tracks laid at pretension, then rolled in on level road until all is settled."""
 
 import numpy as np
 

@@ -8,7 +8,19 @@ from ..road.store import RoadStore
 from ..vehicle.system import body_rows, build_system, new_work
 from .run_in import run_in
 from .settings import NANO
-from .step import AIRBORNE, BELOW_ROAD, GOOD, LONGEST_FLIGHT, NOT_FINITE, OVERTURNED, Sensors, advance, advance_many, new_sample, observe
+from .step import (
+    AIRBORNE,
+    BELOW_ROAD,
+    GOOD,
+    LONGEST_FLIGHT,
+    NOT_FINITE,
+    OVERTURNED,
+    Sensors,
+    advance,
+    advance_many,
+    new_sample,
+    observe,
+)
 
 CHASSIS, POWERTRAIN = 0, 1  # rows of the sample
 HORIZON = 50.0  # m of road that a run in one process keeps ahead of the vehicle

@@ -1,8 +1,9 @@
 """The energy account of a moving vehicle: what it holds, what driver and engine give, what turns into heat.
 
-Symplectic Euler is the leapfrog method: places belong to the ends of the steps, speeds to their middle. So the account
-of a step is that of its beginning, with its places and the mean of the speeds before (v) and after (v'): a force of those
-places does the work F (v + v') dt / 2. Springs then close to rounding. A damper has the force of v and takes the power
+Symplectic Euler is the leapfrog method: places belong to the ends of the steps, speeds to their middle. So the
+account of a step is that of its beginning, with its places and the mean of the speeds before (v) and after (v'): a
+force of those places does the work F (v + v') dt / 2. Springs then close to rounding. A damper has the force of v and
+takes the power
 
     c v (v + v') / 2 = c ((v + v') / 2)^2 + (c v^2 - c v'^2) / 4,
 

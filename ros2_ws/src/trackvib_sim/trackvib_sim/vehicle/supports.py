@@ -1,8 +1,9 @@
 """The standing vehicle's tracks as springs between road wheels, hull and ground, for its equilibrium and its modes.
 
-Under a wheel two shoes share the load, so rubber and ground act in series. Sideways the guide horns hold the wheel in the
-band of shoes, which lies fast. The sprockets are braked: they hold the hull by the run of links down to the rearmost wheel.
-The runs at both ends pull sprocket and idler down and the end wheels up, and the upper run hangs on the hull.
+Under a wheel two shoes share the load, so rubber and ground act in series. Sideways the guide horns hold the wheel in
+the band of shoes, which lies fast. The sprockets are braked: they hold the hull by the run of links down to the
+rearmost wheel. The runs at both ends pull sprocket and idler down and the end wheels up, and the upper run hangs on
+the hull.
 """
 
 from typing import NamedTuple
@@ -75,7 +76,14 @@ def add_supports(supports, motion, cuts):
         forward = supports.longitudinal[0] * (supports.brake[side, 0] - place[0])
         apply_force(cuts, motion, supports.hull, place, (forward - supports.longitudinal[1] * velocity[0], 0.0, 0.0))
         _pull(supports, motion, cuts, 0, place, supports.wheel[side * STATIONS + STATIONS - 1])
-        _pull(supports, motion, cuts, 1, point_place(motion, supports.hull, load3(supports.idler, side)), supports.wheel[side * STATIONS])
+        _pull(
+            supports,
+            motion,
+            cuts,
+            1,
+            point_place(motion, supports.hull, load3(supports.idler, side)),
+            supports.wheel[side * STATIONS],
+        )
 
 
 @kernel

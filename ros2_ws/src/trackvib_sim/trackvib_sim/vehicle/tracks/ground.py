@@ -1,7 +1,7 @@
 """Shoes on the ground: penalty springs along the road's normal, and shear of the soil with Coulomb's limit.
 
-The pin line is the contact line: the road's profile is what the pins of a track follow. While a shoe lies on the ground its
-shear is a spring and damper from the place where it came down; beyond friction the place slides along.
+The pin line is the contact line: the road's profile is what the pins of a track follow. While a shoe lies on the
+ground its shear is a spring and damper from the place where it came down; beyond friction the place slides along.
 """
 
 from typing import NamedTuple
@@ -45,8 +45,8 @@ def road_height(road, side, x):
 def add_ground(ground, nodes, heights, first, spacing, begin, end, work, dt):
     """Fill the ground's forces on the nodes `begin` ... `end - 1` of a track and advance their shear by dt.
 
-    `heights` (m,) are the samples of the track's side from sample `first` on [m]. Returns the power turned into heat [W],
-    the energy stored [J] and the number of shoes on the ground.
+    `heights` (m,) are the samples of the track's side from sample `first` on [m]. Returns the power turned into heat
+    [W], the energy stored [J] and the number of shoes on the ground.
     """
     # from here on the first node is number 0, so that indices are seen to be positive and loops become vectors
     nodes, work, count = nodes[begin:], work[begin:], end - begin
@@ -58,7 +58,13 @@ def add_ground(ground, nodes, heights, first, spacing, begin, end, work, dt):
         work[LOW * STRIDE + i] = heights[k]
         work[RISE * STRIDE + i] = heights[k + 1] - heights[k]
     heat, stored, released, touching = 0.0, 0.0, 0.0, 0.0
-    k_n, c_n, k_s, c_s, mu = ground.stiffness, ground.damping, ground.shear_stiffness, ground.shear_damping, ground.friction
+    k_n, c_n, k_s, c_s, mu = (
+        ground.stiffness,
+        ground.damping,
+        ground.shear_stiffness,
+        ground.shear_damping,
+        ground.friction,
+    )
     for i in range(count):
         low, rise = work[LOW * STRIDE + i], work[RISE * STRIDE + i]
         slope = rise / spacing

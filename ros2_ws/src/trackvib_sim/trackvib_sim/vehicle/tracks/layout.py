@@ -56,8 +56,8 @@ def idler_load(vehicle, travel):
 def end_runs(vehicle, travel):
     """Return what a standing track's ends pull with, forces (2, 2) [N], x and z: at the sprocket and at the idler.
 
-    Each is the tension of the run down to the end wheel and, against it, that of the level runs; the end wheel is pulled
-    the opposite way.
+    Each is the tension of the run down to the end wheel and, against it, that of the level runs; the end wheel is
+    pulled the opposite way.
     """
     line, cut = _cut(vehicle, travel)
     down = np.diff(line.corner, axis=0)[cut]

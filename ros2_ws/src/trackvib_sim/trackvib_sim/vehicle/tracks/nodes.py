@@ -5,9 +5,9 @@ lower run from rear to front, the idler, the upper run from front to rear, the s
 chain, so a wheel's link has a growing number while the vehicle drives forward.
 
 Nodes have numbers 1 to n. Cells 0 and n + 1 repeat nodes n and 1, so that neighbours are found without a search for
-the ends of the chain. Quantity q of node i stands in cell q STRIDE + i: STRIDE is known to the compiler, which therefore
-knows that quantities do not overlap and makes vector instructions of the loops over nodes. It is an odd number of
-cache lines, because quantities an even number apart would evict each other from the cache.
+the ends of the chain. Quantity q of node i stands in cell q STRIDE + i: STRIDE is known to the compiler, which
+therefore knows that quantities do not overlap and makes vector instructions of the loops over nodes. It is an odd
+number of cache lines, because quantities an even number apart would evict each other from the cache.
 """
 
 from typing import NamedTuple
@@ -146,8 +146,16 @@ def add_links(chain, work):
         stored += 0.5 * chain.stiffness * stretch * stretch
     close_chain(work, DIRECTION, 6, n)
     for i in range(1, n + 1):
-        ax, ay, az = work[DIRECTION * STRIDE + i - 1], work[(DIRECTION + 1) * STRIDE + i - 1], work[(DIRECTION + 2) * STRIDE + i - 1]
-        bx, by, bz = work[DIRECTION * STRIDE + i], work[(DIRECTION + 1) * STRIDE + i], work[(DIRECTION + 2) * STRIDE + i]
+        ax, ay, az = (
+            work[DIRECTION * STRIDE + i - 1],
+            work[(DIRECTION + 1) * STRIDE + i - 1],
+            work[(DIRECTION + 2) * STRIDE + i - 1],
+        )
+        bx, by, bz = (
+            work[DIRECTION * STRIDE + i],
+            work[(DIRECTION + 1) * STRIDE + i],
+            work[(DIRECTION + 2) * STRIDE + i],
+        )
         tx, ty, tz = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
         wx = work[TURNING * STRIDE + i] - work[TURNING * STRIDE + i - 1]
         wy = work[(TURNING + 1) * STRIDE + i] - work[(TURNING + 1) * STRIDE + i - 1]

@@ -2,9 +2,9 @@
 
 A pin between two teeth rests on the seat, at the pitch circle, and is driven by a flank. Flanks are straight and open
 outwards by the flank angle and end in a tip with round corners; between pin and flank there is backlash. A pin that
-comes in on the taut track must pass the corner, and with a sprocket pitch other than the track's the load jumps from tooth to tooth. That, at the
-link-passing frequency v/p, is the strongest excitation of the vehicle. Every force but damping is the gradient of a
-potential without jumps, so that teeth make no energy.
+comes in on the taut track must pass the corner, and with a sprocket pitch other than the track's the load jumps from
+tooth to tooth. That, at the link-passing frequency v/p, is the strongest excitation of the vehicle. Every force but
+damping is the gradient of a potential without jumps, so that teeth make no energy.
 """
 
 from math import pi, radians, sin

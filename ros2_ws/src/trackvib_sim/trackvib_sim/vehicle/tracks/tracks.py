@@ -168,9 +168,7 @@ def _add_ground(tracks, state, side, road, work, dt):
 @kernel
 def _add_stretch(tracks, state, side, height, road, begin, end, work, dt):
     nodes, forces = state.nodes[side], work.nodes[side]
-    heat, stored, touching = add_ground(
-        tracks.ground, nodes, height, road.first, road.spacing, begin, end, forces, dt
-    )
+    heat, stored, touching = add_ground(tracks.ground, nodes, height, road.first, road.spacing, begin, end, forces, dt)
     work.heat[GROUND] += heat
     work.stored[GROUND] += stored
     work.touching[0] += touching

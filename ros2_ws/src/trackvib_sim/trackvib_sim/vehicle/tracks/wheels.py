@@ -1,9 +1,9 @@
 """Road wheels, carrier rollers and idlers: circles that roll on the polygon of the links.
 
 A wheel touches a link where the foot of the perpendicular from its centre falls on it, or a node where the foot falls
-beyond the end of one link and before the beginning of the next. As the wheel rolls that passes on from link to link without a
-step, and with it comes the polygon effect. The rim's rubber is a radial spring and damper; friction, regularised by a
-small creep speed, turns the wheel with the track; guide horns hold the shoes sideways.
+beyond the end of one link and before the beginning of the next. As the wheel rolls that passes on from link to link
+without a step, and with it comes the polygon effect. The rim's rubber is a radial spring and damper; friction,
+regularised by a small creep speed, turns the wheel with the track; guide horns hold the shoes sideways.
 """
 
 from typing import NamedTuple
@@ -19,7 +19,9 @@ from .nodes import CONTACT, STRIDE
 
 ROAD_WHEELS, ROLLERS, IDLERS = 1.0, -1.0, 0.0  # sign of x along the chain where the wheel touches it; 0: its front end
 CREEP = 0.1  # m/s, slip at which friction has 71 % of its limit
-MOST_MOVES = 4  # links by which a wheel's link may change in one step; wheels that lost the track must not search for ever
+MOST_MOVES = (
+    4  # links by which a wheel's link may change in one step; wheels that lost the track must not search for ever
+)
 
 
 class Wheels(NamedTuple):
@@ -61,7 +63,7 @@ class Hub(NamedTuple):
     yaw: float
 
 
-# what a track does to a wheel, by place in an array: force [N] and moment about the hub [N m] in hull axes, then the power
+# what a track does to a wheel, by place in an array: force [N] and moment about the hub [N m] in hull axes, then power
 # turned into heat [W] and the energy stored [J] in the contact
 FORCE, MOMENT, HEAT, STORED = 0, 3, 6, 7
 LOAD = 8
@@ -129,9 +131,9 @@ def find_link(run, x, work, i, n):
 def add_wheel(wheels, side, k, hub, link, n, work, load):
     """Add one wheel's contact forces to the nodes around its link, and their reactions to `load` (LOAD,).
 
-    Where the chain bends round the wheel, the feet on two links can lie inside both of them: their common pin then counts
-    once less. Where it bends away, a foot can lie in neither: the pin counts by itself. So the force is that of one
-    rim, and steady.
+    Where the chain bends round the wheel, the feet on two links can lie inside both of them: their common pin then
+    counts once less. Where it bends away, a foot can lie in neither: the pin counts by itself. So the force is that
+    of one rim, and steady.
     """
     rim = Rim(
         wheels.radius[side, k],
