@@ -18,6 +18,7 @@ PLAN = {
     "seeds": 1,
     "measuring": 1.0,
     "population": 4,
+    "step": 0.2,
     "generations": 2,
     "seed": 1,
     "parameters": [

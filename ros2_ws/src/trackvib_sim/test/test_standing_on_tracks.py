@@ -9,6 +9,7 @@ from trackvib_sim.rui.cuts import new_cuts
 from trackvib_sim.rui.kinematics import ORIGIN, ROTATION
 from trackvib_sim.simulation.open_loop import run_open_loop
 from trackvib_sim.vehicle.body_tree import GRAVITY
+from trackvib_sim.vehicle.equilibrium import static_equilibrium
 from trackvib_sim.vehicle.tracks.nodes import GROUND, PLACE, STRIDE
 from trackvib_sim.vehicle.tracks.tracks import add_tracks, new_track_work
 
@@ -72,6 +73,20 @@ def test_ground_balances_the_centre_of_mass(vehicle, table, stood, standing_load
     moment = np.cross(centre, weight).sum(0) + np.cross(place, shoes).sum((0, 1))
     # of 5e5 N with levers of metres
     assert_allclose(moment, 0.0, atol=500.0)
+
+
+@pytest.mark.cross_engine
+def test_tracks_as_springs_stand_as_tracks_do(stood):
+    """The static equilibrium, with springs for tracks, has the hull and its arms where the whole vehicle has them.
+
+    To 1 cm of height, 2 mrad of pitch and 2 cm of wheel travel: links hand on some load from wheel to wheel.
+    """
+    standing, _ = stood
+    found, simple = standing.state.tree, static_equilibrium(standing.system, 1.0).tree
+    assert found.position[0, 2] == pytest.approx(simple.position[0, 2], abs=0.01)
+    assert found.attitude[0, 2] == pytest.approx(simple.attitude[0, 2], abs=0.001)
+    suspension = standing.system.suspension
+    assert_allclose(found.hinge[suspension.row], simple.hinge[suspension.row], rtol=0, atol=0.02 / suspension.length)
 
 
 @pytest.mark.property

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from trackvib_sim.rui.kinematics import point_place
 from trackvib_sim.rui.tree import new_rows, rest_lanes
-from trackvib_sim.vehicle.body_tree import SIDES, wheel_name
+from trackvib_sim.vehicle.body_tree import GRAVITY, SIDES, wheel_name
 from trackvib_sim.vehicle.suspension import add_suspension, shock_force
 from trackvib_sim.vehicle.system import SPRUNG
 
@@ -35,11 +35,16 @@ def wheel_height(system, rows, moved, angle):
 
 
 @pytest.mark.analytic
-def test_bars_carry_the_sprung_mass_at_ride_height(vehicle, system, table):
-    """At angle zero and at rest, the arms' torques over their level reach add up to the sprung weight."""
+def test_bars_carry_the_hull_at_ride_height(vehicle, system, table):
+    """At angle zero and at rest, the arms' torques over their level reach add up to what the hull carries.
+
+    That is the sprung weight, the upper runs of both tracks, and their pull down to the end wheels.
+    """
     reach = vehicle.swing_arms.length * np.cos(np.radians(vehicle.swing_arms.static_angle))
     sprung = sum(body.mass for body in table if body.name in SPRUNG)
-    assert -torques(system, 0.0, 0.0).sum() / reach == pytest.approx(sprung * 9.81, rel=1e-12)
+    tracks = 2.0 * (system.supports.upper_weight - system.supports.pull[:, 1].sum())
+    assert tracks > 0.0
+    assert -torques(system, 0.0, 0.0).sum() / reach == pytest.approx(sprung * GRAVITY + tracks, rel=1e-12)
 
 
 @pytest.mark.analytic

@@ -68,6 +68,9 @@ BAD = [
      ("swing_arms", "bump_travel is 0.5 m", "must be < 0.427")),
     ("stations: {value: [1, 2, 6]", "stations: {value: [0, 2, 6]", ("shock_absorbers.stations.0", "equal to 1")),
     ("stations: {value: [1, 2, 6]", "stations: {value: [1.5, 2, 6]", ("stations is [1.5", "whole numbers")),
+    ("links: {value: 120,", "links: {value: 120.5,", ("tracks.links is 120.5", "multiple of 1")),
+    ("links: {value: 120,", "links: {value: 500,", ("tracks.links is 500", "less than or equal to 198")),
+    ("teeth: {value: 16,", "teeth: {value: 3,", ("sprocket_teeth.teeth is 3", "greater than or equal to 6")),
     ("x: {value: [-3.05]", "x: {value: [-3.05, 1.0]", ("sprockets", "2 places and z 1", "as many")),
 ]  # fmt: skip
 

@@ -148,7 +148,7 @@ def test_a_history_of_something_else_is_refused(history, tmp_path):
 def test_sensitivity_of_a_power_law(tmp_path):
     """Ratios exp(a share) have the sensitivity a / 10; at a bound, where one side is missing, too."""
     parameters = [Parameter(item=item, low=1.0, high=2.0, scale="linear", source="a test") for item in ITEMS]
-    plan = Plan(rows=ROWS, seeds=1, measuring=1.0, population=4, generations=1, seed=1, parameters=parameters)
+    plan = Plan(rows=ROWS, seeds=1, measuring=1.0, population=4, generations=1, step=0.2, seed=1, parameters=parameters)
     slope, values = RATIOS - 1.0, [2.0, 1.6]
     history = History(tmp_path / "runs.csv", "key", plan.items, ROWS)
     for k, side, share in ((0, 0, 0.95), (0, 1, 1.0), (1, 0, 0.55), (1, 1, 0.65)):

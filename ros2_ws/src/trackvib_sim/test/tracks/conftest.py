@@ -19,18 +19,28 @@ def rolling(simulation):
 
 
 @pytest.fixture(scope="session")
-def advanced():
-    """A function `advanced(system, state, road, steps)` that moves a state on, with 1 A in the coils."""
+def mover():
+    """A function `mover(system)` that returns `move(state, road, steps)`, which moves a state on with 1 A in the coils."""
 
-    def move(system, state, road, steps):
-        sensors = Sensors(np.zeros(0, int), np.zeros((0, 3)))
-        status = advance(system, state, road, np.ones(2), steps, new_work(system), sensors, new_sample(sensors))
-        assert status == GOOD
+    def make(system):
+        work, sensors, current = new_work(system), Sensors(np.zeros(0, int), np.zeros((0, 3))), np.ones(2)
+        sample = new_sample(sensors)
 
-    return move
+        def move(state, road, steps):
+            assert advance(system, state, road, current, steps, work, sensors, sample) == GOOD
+
+        return move
+
+    return make
 
 
 @pytest.fixture(scope="session")
 def valley():
     """A level road far below everything."""
     return Road(-1000, 1.0, np.full((2, 2000), -1000.0))
+
+
+@pytest.fixture(scope="session")
+def level_road():
+    """A level road at height zero."""
+    return Road(-100, 1.0, np.zeros((2, 1000)))

@@ -19,15 +19,15 @@ INTERVAL = 100  # steps: 10 ms
 
 
 @pytest.fixture(scope="module")
-def audited(advanced):
+def audited(mover):
     """A function that moves a state on and returns, a row a step: heat (n, 8), given (n, 2) and energy (n,)."""
 
     def audit(system, state, road, steps):
-        meter = EnergyMeter(system)
+        meter, move = EnergyMeter(system), mover(system)
         heat, given, held = np.zeros((steps, len(PARTS))), np.zeros((steps, 2)), np.zeros(steps)
         for k in range(steps):
             meter.open(state)
-            advanced(system, state, road, 1)
+            move(state, road, 1)
             meter.close(state, road)
             heat[k], given[k], held[k] = meter.account.heat, meter.account.given, energy(meter.account)
         return heat, given, held

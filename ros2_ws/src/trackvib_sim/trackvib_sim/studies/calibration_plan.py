@@ -85,6 +85,7 @@ class Plan(_Strict):
     measuring: Annotated[float, Field(ge=1.0, le=60.0)]  # s of each run
     population: Annotated[int, Field(ge=4, le=1000)]  # candidates a generation
     generations: Annotated[int, Field(ge=1, le=100000)]
+    step: Annotated[float, Field(gt=0.0, le=0.5)]  # of the optimiser, first standard deviation in shares of the ranges
     seed: Annotated[int, Field(ge=0, le=2**32 - 1)]  # of the optimiser
     parameters: Annotated[list[Parameter], Field(min_length=2)]
 

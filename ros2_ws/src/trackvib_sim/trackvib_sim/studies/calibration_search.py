@@ -19,7 +19,6 @@ from .farm import finished
 from .paper_table import error_factor
 from .vehicle_text import calibrated
 
-STEP = 0.2  # first standard deviation, in shares of the ranges
 
 
 class Candidates(NamedTuple):
@@ -96,7 +95,7 @@ def search(candidates, history, start, generations, progress):
         "seed": np.nan,
         "verbose": -9,
     }
-    strategy = cma.CMAEvolutionStrategy(plan.shares(start), STEP, options)
+    strategy = cma.CMAEvolutionStrategy(plan.shares(start), plan.step, options)
     for generation in range(1, generations + 1):
 
         def advance(done, of=f"generation {generation}/{generations}"):
