@@ -46,7 +46,7 @@ def idler_load(vehicle, travel):
     """Return the force [N] with which the pretension of both runs pulls an idler rearwards."""
     line = _taut_line(vehicle, travel)
     on_idler = np.hypot(*(line.corner - (vehicle.idlers.x[0] + travel, vehicle.idlers.z[0])).T)
-    touching = np.flatnonzero(on_idler < vehicle.idlers.radius + 1e-9)
+    touching = np.flatnonzero(on_idler < _idler_circle(vehicle) + 1e-9)
     tangent = np.diff(line.corner, axis=0)
     tangent /= np.linalg.norm(tangent, axis=1)[:, None]
     # the line enters the idler forwards and leaves it rearwards
@@ -102,6 +102,11 @@ def sink(vehicle):
     return weight / (len(SIDES) * STATIONS * vehicle.tyres.radial_stiffness)
 
 
+def _idler_circle(vehicle):
+    """Radius on which the pins of a wrapped chain stand: it is the links that touch the rim, in their middles."""
+    return np.hypot(vehicle.idlers.radius, 0.5 * vehicle.tracks.pitch)
+
+
 class _Line:
     """A closed polygon, counter-clockwise, by its arc length from the first corner."""
 
@@ -120,7 +125,7 @@ def _taut_line(vehicle, travel):
     circles = [
         *((x, wheels.radius, wheels.radius - given) for x in v.swing_arms.wheel_x),
         *((x, z, v.carrier_rollers.radius) for x, z in zip(v.carrier_rollers.x, v.carrier_rollers.z, strict=True)),
-        (v.idlers.x[0] + travel, v.idlers.z[0], v.idlers.radius),
+        (v.idlers.x[0] + travel, v.idlers.z[0], _idler_circle(v)),
         (v.sprockets.x[0], v.sprockets.z[0], pitch_radius(v)),
     ]
     angle = 2.0 * np.pi * np.arange(_CORNERS) / _CORNERS

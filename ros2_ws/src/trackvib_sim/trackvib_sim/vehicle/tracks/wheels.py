@@ -18,7 +18,7 @@ from ..body_tree import IDLER, ROLLER, SIDES, STATIONS, wheel_name
 from .nodes import CONTACT, STRIDE
 
 ROAD_WHEELS, ROLLERS, IDLERS = 1.0, -1.0, 0.0  # sign of x along the chain where the wheel touches it; 0: its front end
-CREEP = 0.1  # m/s, slip at which friction has 71 % of its limit
+CREEP = 0.25  # m/s, slip at which friction has 71 % of its limit; less is stiff against a shoe in steps of 1e-4 s
 MOST_MOVES = (
     4  # links by which a wheel's link may change in one step; wheels that lost the track must not search for ever
 )

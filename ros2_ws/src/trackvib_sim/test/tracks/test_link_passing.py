@@ -1,0 +1,61 @@
+"""The rolling vehicle: how a run begins, and the line that the links draw into every spectrum."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from trackvib_sim.analysis.vibration import psd, rms
+from trackvib_sim.road.iso8608 import Iso8608Road
+from trackvib_sim.simulation.open_loop import run_open_loop
+from trackvib_sim.simulation.simulation import Probe
+
+from .other_links import LINKS, with_links
+
+RATE = 1000.0  # Hz, of the samples
+RESOLUTION = 1.0  # Hz
+
+
+@pytest.mark.analytic
+@pytest.mark.parametrize("speed", [5.0, 10.0, 20.0])
+@pytest.mark.parametrize(("links", "pitch", "teeth"), LINKS[:2])
+def test_links_pass_at_their_frequency(vehicle, simulation, links, pitch, teeth, speed):
+    """On a smooth road the hull's strongest vertical line within 40 % of v / p lies at v / p, v being the mean speed.
+
+    To one bin of the spectrum, and a hundred times over what is between the lines.
+    """
+    hull = Probe("hull", tuple(vehicle.powertrain.place))
+    moving = simulation(speed=speed, vehicle=with_links(vehicle, links, pitch, teeth), phase=0.3, probes=(hull,))
+    run = run_open_loop(moving, Iso8608Road("A", 1, 4.0, 4.0), 5000)
+    settled = slice(2000, None)
+    passing = run.speed[settled].mean() / pitch
+    frequency, density = psd(run.specific_force[settled, -1], RATE, RESOLUTION)
+    near = np.abs(frequency - passing) < 0.4 * passing
+    strongest = density[near, 2].argmax()
+    assert frequency[near][strongest] == pytest.approx(passing, abs=RESOLUTION)
+    assert density[near, 2][strongest] > 100.0 * np.median(density[near, 2])
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("speed", [5.0, 10.0, 20.0])
+def test_run_begins_settled(vehicle, simulation, speed):
+    """On a level road the first two seconds are as the next two: no jolt, and no more and no less vibration."""
+    probes = (Probe("hull", tuple(vehicle.powertrain.place)), Probe("turret", (0.0, 0.0, 0.0)))
+    moving = simulation(speed=speed, phase=0.5, probes=probes)
+    run = run_open_loop(moving, Iso8608Road("A", 1, 1e6, 1.0), 4000)
+    vibration = run.specific_force - run.specific_force.mean(axis=0)
+    size = np.linalg.norm(vibration, axis=2)
+    first, then = slice(None, 2000), slice(2000, None)
+    assert rms(size[then]).min() > 0.1
+    assert (size[first].max(axis=0) < 1.5 * size[then].max(axis=0)).all()
+    assert_allclose(rms(size[first]), rms(size[then]), rtol=0.1)
+    assert run.speed.mean() == pytest.approx(speed, rel=2e-3)
+
+
+@pytest.mark.property
+def test_standing_vehicle_stands(simulation):
+    """With its engine off nothing moves but the last of the swinging of the upper runs, which dies out."""
+    standing = simulation(speed=0.0)
+    run = run_open_loop(standing, Iso8608Road("A", 1, 1e6, 1.0), 4000)
+    vibration = run.specific_force - run.specific_force[3000:].mean(axis=0)
+    assert np.abs(vibration).max() < 0.1
+    assert np.abs(vibration[3000:]).max() < np.abs(vibration[:1000]).max()
+    assert np.abs(run.speed).max() < 5e-3
