@@ -95,7 +95,7 @@ def test_another_seed_gives_another_run(first, tmp_path):
 def test_loop_in_one_process_is_identical(drive):
     """The same vehicle, road and law in one process give the same samples and currents to the last bit."""
     vehicle, _ = read_vehicle(default_vehicle_file())
-    simulation = Simulation(vehicle, RunSettings(Operation(10.0, 1650.0, False), Rates(), 1.0))
+    simulation = Simulation(vehicle, RunSettings(Operation(10.0, 1650.0, False, 0.25), Rates(), 1.0))
     record = run_closed_loop(simulation, Iso8608Road("E", 1, 8.0, 8.0), Skyhook(1e-3), SAMPLES)
     np.testing.assert_array_equal(record.specific_force[:, 0], drive.chassis.specific_force)
     np.testing.assert_array_equal(record.specific_force[:, 1], drive.powertrain.specific_force)

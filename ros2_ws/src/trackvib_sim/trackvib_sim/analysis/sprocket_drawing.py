@@ -16,7 +16,7 @@ def tooth_profile(sprockets, angle):
     """Return the outline (m, 2) of a sprocket from its hub as the centres of the pins feel it, x forward, z up [m].
 
     `sprockets` is the record of `vehicle.tracks.sprockets`, `angle` that of the sprocket about +y. Between two teeth
-    the gap opens from the pitch circle, where a pin rests, along both flanks to the tips.
+    the gap opens from the pitch circle, where a pin rests, along both flanks and their round corners to the tips.
     """
     radius, gap = half_gap(sprockets)
     radius, off = np.concatenate((radius[::-1], radius)), np.concatenate((-gap[::-1], gap))
@@ -36,10 +36,14 @@ def free_entry(sprockets):
 
 
 def half_gap(sprockets):
-    """Return radii (m,) [m] and angles (m,) [rad] of a flank, from the middle of its gap."""
+    """Return radii (m,) [m] and angles (m,) [rad] of a flank and its round corner, from the middle of its gap."""
     s = sprockets
     radius = s.pitch_radius + _ALONG * (s.tip_radius - s.pitch_radius)
-    return radius, (s.backlash + s.slope * (radius - s.pitch_radius)) / radius
+    to_tip = np.maximum(s.corner - (s.tip_radius - radius), s.sine * s.corner)  # from the corner's centre
+    # on the circle of the corner, in the skew axes of the normals of tip and flank
+    to_flank = s.sine * to_tip + s.cosine * np.sqrt(s.corner**2 - to_tip**2)
+    way = s.backlash + s.slope * (radius - s.pitch_radius) + (s.corner - to_flank) / s.cosine
+    return radius, way / radius
 
 
 def _places(radius, angle):

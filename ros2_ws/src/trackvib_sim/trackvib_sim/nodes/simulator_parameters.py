@@ -19,6 +19,9 @@ PARAMETERS = (
         "Forces and moments of each order on the powertrain, or the displacement across the mounts of [Tao2025].",
         choices=("forces", "displacement"),
     ),
+    Parameter(
+        "track_phase", 0.25, "Part of a pitch by which the right track lies ahead of the left one.", "", 0.0, 1.0
+    ),
     Parameter("duration", 0.0, "Simulated time after which the node ends; 0 for no end.", "s", 0.0, 1e6),
     Parameter(
         "pace",
@@ -60,7 +63,9 @@ def prepare(values):
         raise ParameterError(
             f"simulator: parameter 'engine_speed' is {engine_speed}, accepted is 0 or {low:g} to {high:g} r/min"
         )
-    operation = Operation(values["speed"], engine_speed, values["engine_excitation"] == "displacement")
+    operation = Operation(
+        values["speed"], engine_speed, values["engine_excitation"] == "displacement", values["track_phase"]
+    )
     try:
         rates = Rates(values["physics_rate"], values["control_rate"], values["odometry_rate"])
         simulation = Simulation(vehicle, RunSettings(operation, rates, values["passive_current"]))
