@@ -15,6 +15,7 @@ from .step import (
     LONGEST_FLIGHT,
     NOT_FINITE,
     OVERTURNED,
+    SKIPPED,
     Sensors,
     advance,
     advance_many,
@@ -29,6 +30,7 @@ _REASONS = {
     NOT_FINITE: "the state is no longer finite",
     OVERTURNED: "the vehicle has overturned",
     BELOW_ROAD: "a road wheel lies below the road",
+    SKIPPED: "a track has skipped a tooth of its sprocket",
     AIRBORNE: f"no shoe has touched the ground for {LONGEST_FLIGHT:g} s",
 }
 

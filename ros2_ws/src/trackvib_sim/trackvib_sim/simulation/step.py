@@ -24,9 +24,9 @@ from ..vehicle.engine import add_engine, imposed_displacement
 from ..vehicle.hinge_springs import add_hinge_springs
 from ..vehicle.mr_mounts import MountSample, add_mounts, new_mount_sample, observe_mounts
 from ..vehicle.suspension import add_suspension
-from ..vehicle.tracks.tracks import add_tracks, move_tracks, wheel_below_road
+from ..vehicle.tracks.tracks import add_tracks, move_tracks, track_skips, wheel_below_road
 
-GOOD, NOT_FINITE, OVERTURNED, BELOW_ROAD, AIRBORNE = range(5)
+GOOD, NOT_FINITE, OVERTURNED, BELOW_ROAD, AIRBORNE, SKIPPED = range(6)
 LEAST_UPRIGHT = 0.36  # cosine of the hull's tilt; 1.2 rad is beyond what the suspension and the driver are made for
 LONGEST_FLIGHT = 1.0  # s; from 1.2 m, where no driver goes and no running gear is made for
 
@@ -108,6 +108,8 @@ def end_step(system, state, road, work, sensors, sample, share):
     state.flight[0] = 0.0 if work.tracks.touching[0] > 0.0 else state.flight[0] + system.dt
     if state.flight[0] > LONGEST_FLIGHT:
         return AIRBORNE
+    if track_skips(system.tracks, state.tracks, state.tree):
+        return SKIPPED
     return GOOD
 
 

@@ -36,7 +36,10 @@ def lay_tracks(vehicle, system, state, speed, phase):
         node[3], node[5] = speed * (1.0 - direction[:, 0]), -speed * direction[:, 1]
         state.tracks.link[side] = [1 + _nearest(place, point) for point in _lowest_points(vehicle, travel)]
         state.tracks.rear[side] = 1 + _nearest(place, sprocket - (radius, 0.0))
-        state.tree.hinge[tracks.sprockets.row[side]] = _tooth_angle(place - sprocket, radius, tracks.sprockets.teeth)
+        teeth = tracks.sprockets.teeth
+        angle = _tooth_angle(place - sprocket, radius, teeth)
+        state.tree.hinge[tracks.sprockets.row[side]] = angle
+        state.tracks.passed[side] = 0.5 * angle * teeth / pi
 
 
 def _lowest_points(vehicle, travel):

@@ -29,6 +29,7 @@ from .wheels import (
 
 LINKS, GROUND, RIMS, TEETH, TENSIONERS = range(5)  # where energy goes
 SINKS = 5
+MESHED = 1.5  # teeth between the turn of a sprocket and the pins that passed; in mesh it is less than one
 
 
 class Tracks(NamedTuple):
@@ -47,6 +48,7 @@ class TrackState(NamedTuple):
     nodes: np.ndarray  # (2, NODE_STATE STRIDE)
     link: np.ndarray  # (2, 11) that each wheel touches
     rear: np.ndarray  # (2,) rearmost node, on the sprocket
+    passed: np.ndarray  # (2,) pins that passed the sprocket, counted from where it had the angle zero
     tensioner: TensionerState
 
 
@@ -82,7 +84,7 @@ def tracks(vehicle, rows):
 def new_track_state(tracks):
     """Return the state of tracks that are not laid yet."""
     slides = TensionerState(np.zeros(2), np.zeros(2))
-    return TrackState(new_nodes(), np.ones(tracks.wheels.row.shape, int), np.ones(2, int), slides)
+    return TrackState(new_nodes(), np.ones(tracks.wheels.row.shape, int), np.ones(2, int), np.zeros(2), slides)
 
 
 def new_track_work():
@@ -143,8 +145,11 @@ def _add_wheels(tracks, state, side, motion, cuts, work):
 @kernel
 def _add_sprocket(tracks, state, side, tree_state, motion, cuts, work):
     hull, n, load, row = tracks.chain.hull, tracks.chain.links, work.load, tracks.sprockets.row[side]
-    rear = find_rear(work.nodes[side], state.rear[side], n)
+    before = state.rear[side]
+    rear = find_rear(work.nodes[side], before, n)
     state.rear[side] = rear
+    # steps of a few pins at most, where the numbers begin anew as well
+    state.passed[side] += (rear - before + n + n // 2) % n - n // 2
     hub = hub_of(motion, hull, row, 0.0, 0.0)
     load[:] = 0.0
     add_sprocket(tracks.sprockets, hub, tree_state.hinge[row], rear, n, work.nodes[side], load)
@@ -191,4 +196,14 @@ def wheel_below_road(tracks, road, motion):
                 hub = motion_vector(motion, ORIGIN, tracks.wheels.row[side, k])
                 if hub[2] < road_height(road, side, hub[0]):
                     return True
+    return False
+
+
+@kernel
+def track_skips(tracks, state, tree_state):
+    """Return whether a sprocket has turned by other than the pins that passed it."""
+    share = 2.0 * np.pi / tracks.sprockets.teeth
+    for side in range(2):
+        if abs(tree_state.hinge[tracks.sprockets.row[side]] / share - state.passed[side]) > MESHED:
+            return True
     return False
