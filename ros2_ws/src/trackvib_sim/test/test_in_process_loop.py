@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.rui.kinematics import new_motion, point_place, point_velocity, rotation, update_motion
 from trackvib_sim.simulation.closed_loop import run_closed_loop
+from trackvib_sim.simulation.open_loop import run_open_loop
 from trackvib_sim.simulation.simulation import CHASSIS, POWERTRAIN, RunFailed
 
 PERIOD = 1e-3
@@ -113,11 +114,11 @@ def test_standing_vehicle_vibrates_in_the_engines_orders(simulation, level, impo
     """At 1500 r/min a standing vehicle's powertrain vibrates at orders 2, 3 and 6: 50, 75 and 150 Hz.
 
     With the imposed displacement it is order 2 alone. Geometry makes sums and differences of the orders, too, with
-    amplitudes of microns over a metre; they and what is left of the start are below a thousandth of the power.
+    amplitudes of microns over a metre; they and what is left of the start, when the vehicle still swings on its
+    tracks, are below a thousandth of the power.
     """
     standing = simulation(0.0, 1500.0, imposed=imposed)
-    record = run_closed_loop(standing, level, Passive(PERIOD), 6000)
-    vertical = record.specific_force[-2000:, POWERTRAIN, 2]
+    vertical = run_open_loop(standing, level, 14_000).specific_force[-2000:, POWERTRAIN, 2]
     power = np.abs(np.fft.rfft(vertical - vertical.mean())) ** 2
     orders = [100] if imposed else [100, 150, 300]  # bins of 0.5 Hz
     assert power[orders].min() > 1e-5 * power.sum()

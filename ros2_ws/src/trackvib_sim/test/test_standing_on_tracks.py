@@ -13,7 +13,7 @@ from trackvib_sim.vehicle.equilibrium import static_equilibrium
 from trackvib_sim.vehicle.tracks.nodes import GROUND, PLACE, STRIDE
 from trackvib_sim.vehicle.tracks.tracks import add_tracks, new_track_work
 
-RESTING = 4000  # periods until the last swinging has died out
+RESTING = 12_000  # periods; to and fro on its tracks the vehicle swings with hardly any damping
 
 
 @pytest.fixture(scope="module")
@@ -91,9 +91,9 @@ def test_tracks_as_springs_stand_as_tracks_do(stood):
 
 @pytest.mark.property
 def test_standing_vehicle_rests(stood, level):
-    """From the start the sensors feel gravity to 1 %, after some seconds to 0.1 % and the vehicle keeps its place."""
+    """From the start the sensors feel gravity to 2 %, after some seconds to 0.1 % and the vehicle keeps its place."""
     standing, settling = stood
-    assert_allclose(np.linalg.norm(settling.specific_force, axis=2), GRAVITY, rtol=0.01)
+    assert_allclose(np.linalg.norm(settling.specific_force, axis=2), GRAVITY, rtol=0.02)
     before = standing.state.tree.position.copy()
     resting = run_open_loop(standing, level, 1000)
     assert_allclose(np.linalg.norm(resting.specific_force, axis=2), GRAVITY, rtol=1e-3)

@@ -71,6 +71,16 @@ def test_a_wheel_below_the_road_ends_a_run(simulation, heights):
         lost.advance(np.ones(2))
 
 
+@pytest.mark.parametrize("teeth", [2, -2])
+def test_a_skipped_tooth_ends_a_run(simulation, level, drive, teeth):
+    """A sprocket that stands teeth ahead of the pins that passed it, or behind them, has been skipped."""
+    jumped = simulation(10.0)
+    sprockets = jumped.system.tracks.sprockets
+    jumped.state.tree.hinge[sprockets.row[1]] += teeth * 2.0 * np.pi / sprockets.teeth
+    with pytest.raises(RunFailed, match=r"^a track has skipped a tooth of its sprocket after t = 0\.000 s$"):
+        list(drive(jumped, level, 1))
+
+
 def test_failure_keeps_the_last_sample(simulation, drive):
     """Class H at 25 m/s is beyond the vehicle: the run fails by name and time and keeps its last sample."""
     thrown = simulation(25.0)
@@ -82,10 +92,17 @@ def test_failure_keeps_the_last_sample(simulation, drive):
     np.testing.assert_array_equal(thrown.sample.rate, before[1])
 
 
-def test_a_vehicle_that_cannot_roll_is_refused(changed, simulation):
-    """Where the ground neither carries nor damps, no run begins."""
-    with pytest.raises(CannotRoll, match=r"^the vehicle cannot roll at 5 m/s on a level road; check the vehicle file$"):
-        simulation(5.0, vehicle=changed("ground", stiffness=1e3, damping=0.0))
+@pytest.mark.parametrize(
+    ("speed", "section", "items"),
+    [
+        (5.0, "ground", {"stiffness": 1e3, "damping": 0.0}),  # gives way
+        (25.0, "tracks", {"pretension": 1e3}),  # too slack for its centrifugal force, skips teeth
+    ],
+)
+def test_a_vehicle_that_cannot_roll_is_refused(changed, simulation, speed, section, items):
+    """Where the vehicle does not survive its run-in on a level road, no run begins."""
+    with pytest.raises(CannotRoll, match=rf"^the vehicle cannot roll at {speed:g} m/s on a level road"):
+        simulation(speed, vehicle=changed(section, **items))
 
 
 @pytest.mark.parametrize("speed", [0.0, 5.0, 10.0, 20.0])

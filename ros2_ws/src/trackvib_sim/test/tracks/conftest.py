@@ -20,7 +20,7 @@ def rolling(simulation):
 
 @pytest.fixture(scope="session")
 def mover():
-    """A function `mover(system)` that returns `move(state, road, steps)`, which moves a state on with 1 A in the coils."""
+    """A function of a system that returns `move(state, road, steps)`, which moves a state on with 1 A in the coils."""
 
     def make(system):
         work, sensors, current = new_work(system), Sensors(np.zeros(0, int), np.zeros((0, 3))), np.ones(2)

@@ -5,7 +5,7 @@ LINKS = ((120, 0.115, 16), (100, 0.138, 13), (150, 0.092, 20))
 
 
 def with_links(vehicle, links, pitch, teeth):
-    """Return the vehicle with tracks of as much mass and elasticity a metre, and sprockets with another number of teeth."""
+    """Return the vehicle with tracks of as much mass and elasticity a metre, and with other teeth."""
     tracks, share = vehicle.tracks, pitch / vehicle.tracks.pitch
     other = {
         "links": float(links),

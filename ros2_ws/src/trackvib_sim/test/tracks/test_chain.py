@@ -93,7 +93,10 @@ def test_chain_hangs_as_a_catenary(system, evaluated, swung):
 @pytest.mark.parametrize("mode", [1, 2, 5])
 @pytest.mark.parametrize("axis", [1, 2], ids=["sideways", "up"])
 def test_taut_chain_swings_at_its_natural_frequency(system, swung, axis, mode):
-    """Beads on a string under tension T swing with w = 2 sqrt(T / (m p)) sin(k pi / (2 n)); half a period turns them over."""
+    """Beads on a string under tension T swing with w = 2 sqrt(T / (m p)) sin(k pi / (2 n)).
+
+    Half a period turns them over.
+    """
     chain = system.tracks.chain._replace(links=2 * STRAND, **FREE_PINS)
     tension = 2e4
     pitch = chain.free_length + tension / chain.stiffness

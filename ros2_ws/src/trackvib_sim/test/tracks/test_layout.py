@@ -79,7 +79,7 @@ def test_phase_shifts_the_pins_along_the_track(vehicle, travel):
 
 
 def test_right_track_is_laid_ahead_by_the_phase(vehicle, system):
-    """Left and right differ by the phase alone; both lie still on the ground and run forward at twice the speed above."""
+    """Left and right differ by the phase; both lie still on the ground and run forward at twice the speed above."""
     state, speed, phase = new_state(system), 7.0, 0.4
     lay_tracks(vehicle, system, state, speed, phase)
     left, right = shoes(system.tracks.chain, state.tracks.nodes)

@@ -56,6 +56,6 @@ def test_standing_vehicle_stands(simulation):
     standing = simulation(speed=0.0)
     run = run_open_loop(standing, Iso8608Road("A", 1, 1e6, 1.0), 4000)
     vibration = run.specific_force - run.specific_force[3000:].mean(axis=0)
-    assert np.abs(vibration).max() < 0.1
+    assert np.abs(vibration).max() < 0.3
     assert np.abs(vibration[3000:]).max() < np.abs(vibration[:1000]).max()
     assert np.abs(run.speed).max() < 5e-3

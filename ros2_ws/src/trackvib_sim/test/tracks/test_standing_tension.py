@@ -18,7 +18,7 @@ RIGHT = 1
 
 @pytest.fixture(scope="module")
 def mean_tension(vehicle, simulation, level_road):
-    """A function of links, pitch and teeth: the mean tension [N] of right tracks laid at several phases, and settled."""
+    """A function of links, pitch and teeth: mean tension [N] of right tracks laid at several phases, and settled."""
 
     def measure(links, pitch, teeth):
         means = []
