@@ -6,7 +6,7 @@ from ..road.store import Road
 from ..vehicle.system import new_state, new_work
 from ..vehicle.tracks.initial import lay_tracks
 from ..vehicle.tracks.nodes import PLACE, STRIDE
-from .step import GOOD, Sensors, advance, new_sample
+from .step import GOOD, REASONS, Sensors, advance, new_sample
 
 DURATION = 3.0  # s; the slowest motion, of the driver's speed control, has a time constant of 0.9 s
 _SPACING = 1.0  # m
@@ -35,7 +35,9 @@ def run_in(vehicle, system, settings):
     steps = round(DURATION / system.dt)
     status = advance(system, state, road, state.currents.copy(), steps, work, sensors, new_sample(sensors))
     if status != GOOD:
-        raise CannotRoll(f"the vehicle cannot roll at {speed:g} m/s on a level road; check the vehicle file")
+        raise CannotRoll(
+            f"the vehicle cannot roll at {speed:g} m/s on a level road: {REASONS[status]}; check the vehicle file"
+        )
     return _back_at_start(state)
 
 

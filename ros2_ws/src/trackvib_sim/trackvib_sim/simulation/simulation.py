@@ -8,31 +8,11 @@ from ..road.store import RoadStore
 from ..vehicle.system import body_rows, build_system, new_work
 from .run_in import run_in
 from .settings import NANO
-from .step import (
-    AIRBORNE,
-    BELOW_ROAD,
-    GOOD,
-    LONGEST_FLIGHT,
-    NOT_FINITE,
-    OVERTURNED,
-    SKIPPED,
-    Sensors,
-    advance,
-    advance_many,
-    new_sample,
-    observe,
-)
+from .step import GOOD, REASONS, Sensors, advance, advance_many, new_sample, observe
 
 CHASSIS, POWERTRAIN = 0, 1  # rows of the sample
 HORIZON = 50.0  # m of road that a run in one process keeps ahead of the vehicle
 _MARGIN = 1.0  # m of road beyond sprockets and idlers
-_REASONS = {
-    NOT_FINITE: "the state is no longer finite",
-    OVERTURNED: "the vehicle has overturned",
-    BELOW_ROAD: "a road wheel lies below the road",
-    SKIPPED: "a track has skipped a tooth of its sprocket",
-    AIRBORNE: f"no shoe has touched the ground for {LONGEST_FLIGHT:g} s",
-}
 
 
 class Probe(NamedTuple):
@@ -131,7 +111,7 @@ class Simulation:
     def _end_periods(self, status, done):
         self.periods += done
         if status != GOOD:
-            raise RunFailed(f"{_REASONS[status]} after t = {self.time / NANO:.3f} s")
+            raise RunFailed(f"{REASONS[status]} after t = {self.time / NANO:.3f} s")
 
     def _stretch(self, periods):
         ahead = 1.5 * periods * self.settings.operation.speed / self.settings.rates.control

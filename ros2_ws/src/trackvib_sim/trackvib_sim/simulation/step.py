@@ -30,6 +30,14 @@ GOOD, NOT_FINITE, OVERTURNED, BELOW_ROAD, AIRBORNE, SKIPPED = range(6)
 LEAST_UPRIGHT = 0.36  # cosine of the hull's tilt; 1.2 rad is beyond what the suspension and the driver are made for
 LONGEST_FLIGHT = 1.0  # s; from 1.2 m, where no driver goes and no running gear is made for
 
+REASONS = {
+    NOT_FINITE: "the state is no longer finite",
+    OVERTURNED: "the vehicle has overturned",
+    BELOW_ROAD: "a road wheel lies below the road",
+    SKIPPED: "a track has skipped a tooth of its sprocket",
+    AIRBORNE: f"no shoe has touched the ground for {LONGEST_FLIGHT:g} s",
+}
+
 
 class Sensors(NamedTuple):
     """Points whose acceleration is measured, in the axes of their bodies."""

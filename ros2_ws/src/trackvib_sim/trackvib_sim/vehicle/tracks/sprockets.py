@@ -142,9 +142,11 @@ def _in_tooth(s, way, distance):
     # the way from that centre to the pin, in parts along the normals of flank and tip
     on_flank = (to_flank - s.sine * to_tip) / (s.cosine * s.cosine)
     on_tip = (to_tip - s.sine * to_flank) / (s.cosine * s.cosine)
-    if on_tip <= 0.0:
+    # deeper than the corner's centre from both lines, the nearer one is the way out
+    core = to_flank <= 0.0 and to_tip <= 0.0
+    if on_tip <= 0.0 and not (core and to_tip > to_flank):
         return flank, s.cosine, -s.sine if above > 0.0 else 0.0
-    if on_flank <= 0.0:
+    if on_flank <= 0.0 or core:
         return s.tip_radius - distance, 0.0, -1.0
     from_centre = np.sqrt(on_flank * to_flank + on_tip * to_tip)
     outward = -(s.sine * on_flank + on_tip) / from_centre
