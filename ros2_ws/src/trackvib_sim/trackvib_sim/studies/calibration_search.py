@@ -20,7 +20,6 @@ from .paper_table import error_factor
 from .vehicle_text import calibrated
 
 
-
 class Candidates(NamedTuple):
     """Turns values into numbers beside the paper's."""
 
