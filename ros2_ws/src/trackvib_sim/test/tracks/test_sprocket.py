@@ -137,8 +137,8 @@ def _polar(distance, angle):
 def test_teeth_are_a_potential(system, toothed, seed):
     """Wherever a pin is led, over tips, down flanks, along the seat, the teeth do the work that their energy says."""
     wheel, random = system.tracks.sprockets, np.random.default_rng(seed)
-    # about the surface of a tooth: not so deep that it is pierced
-    above, deep = random.uniform(-0.003, 1.1 * (wheel.tip_radius - wheel.pitch_radius)), random.uniform(-0.005, 0.01)
+    # about the surface of a tooth and within it
+    above, deep = random.uniform(-0.003, 1.1 * (wheel.tip_radius - wheel.pitch_radius)), random.uniform(-0.005, 0.03)
     way = wheel.backlash + wheel.slope * max(above, 0.0) + deep / wheel.cosine
     distance = wheel.pitch_radius + above
     first = _polar(distance, -ANGLE - random.choice((-1.0, 1.0)) * way / distance)
