@@ -10,6 +10,7 @@ from trackvib_sim.rui.placement import parent_rows, place_bodies
 from trackvib_sim.rui.solve import accelerations
 from trackvib_sim.rui.state import Accelerations, Loads, TreeState, free_bodies, rest_state
 from trackvib_sim.rui.table import Body, Hinge, check_table
+from trackvib_sim.studies.pinocchio_tree import pinocchio_model
 
 GRAVITY = (0.0, 0.0, -9.81)
 
@@ -163,7 +164,7 @@ def _random_state(random, table):
 
 
 def _pinocchio(bodies, state, loads, gravity=GRAVITY):
-    model, joints = _model(bodies, gravity)
+    model, joints = pinocchio_model(bodies, gravity)
     data, n, parents = model.createData(), len(bodies), parent_rows(bodies)
     q, v, tau = pin.neutral(model), np.zeros(model.nv), np.zeros(model.nv)
     attitude = state.attitude[0] / np.linalg.norm(state.attitude[0])
@@ -194,30 +195,3 @@ def _pinocchio(bodies, state, loads, gravity=GRAVITY):
     angular = [pin.getAcceleration(model, data, joint, frame).angular for joint in joints]
     hinge = [0.0] + [a[model.joints[joint].idx_v] for joint in joints[1:]]
     return Accelerations(np.array(linear), np.array(angular), np.array(hinge), wrench)
-
-
-def _model(bodies, gravity):
-    """Return the Pinocchio model and the joint of every row; joints must be added depth first."""
-    model, joints, parents = pin.Model(), [0] * len(bodies), parent_rows(bodies)
-    model.gravity.linear = np.asarray(gravity, dtype=float)
-    kinds = {"revolute": pin.JointModelRevoluteUnaligned, "slide": pin.JointModelPrismaticUnaligned}
-
-    def add(row):
-        body = bodies[row]
-        if body.hinge is None:
-            joint, parent, place = pin.JointModelFreeFlyer(), 0, np.zeros(3)
-        else:
-            if body.hinge.kind not in kinds or body.hinge.prescribed:
-                raise ValueError(f"hinge {body.hinge.number} is neither a free revolute nor a free slide")
-            axis = np.asarray(body.hinge.axis, dtype=float)
-            joint = kinds[body.hinge.kind](axis / np.linalg.norm(axis))
-            parent, place = joints[parents[row]], np.asarray(body.hinge.place, dtype=float)
-        joints[row] = model.addJoint(parent, joint, pin.SE3(np.eye(3), place), body.name)
-        inertia = pin.Inertia(body.mass, np.asarray(body.centre, dtype=float), np.asarray(body.inertia, dtype=float))
-        model.appendBodyToJoint(joints[row], inertia, pin.SE3.Identity())
-        for child, p in enumerate(parents):
-            if p == row:
-                add(child)
-
-    add(0)
-    return model, joints

@@ -26,7 +26,7 @@ class PinocchioTree:
     """A table of bodies (revolutes and slides, one free root) in Pinocchio: articulated-body algorithm."""
 
     def __init__(self, bodies, gravity):
-        self._model, self._joints = _model(bodies, gravity)
+        self._model, self._joints = pinocchio_model(bodies, gravity)
         self._data = self._model.createData()
         hinges = [self._model.joints[joint] for joint in self._joints[1:]]
         self._q_of, self._v_of = [hinge.idx_q for hinge in hinges], [hinge.idx_v for hinge in hinges]
@@ -56,8 +56,14 @@ class PinocchioTree:
         return BodyAccelerations(np.array(linear), np.array(angular), np.array([0.0, *a[self._v_of]]))
 
 
-def _model(bodies, gravity):
-    """Return the model and the joint of every body; Pinocchio wants branches one after the other, depth first."""
+def pinocchio_model(bodies, gravity):
+    """Return the model and the joint of every body; Pinocchio wants branches one after the other, depth first.
+
+    Raises
+    ------
+    ValueError
+        A hinge is neither a free revolute nor a free slide.
+    """
     model, joints, parents = pin.Model(), [0] * len(bodies), parent_rows(bodies)
     model.gravity.linear = np.asarray(gravity, dtype=float)
     kinds = {"revolute": pin.JointModelRevoluteUnaligned, "slide": pin.JointModelPrismaticUnaligned}
@@ -66,6 +72,8 @@ def _model(bodies, gravity):
         body = bodies[row]
         parent, joint, place = 0, pin.JointModelFreeFlyer(), np.zeros(3)
         if body.hinge is not None:
+            if body.hinge.kind not in kinds or body.hinge.prescribed:
+                raise ValueError(f"hinge {body.hinge.number} is neither a free revolute nor a free slide")
             axis = np.asarray(body.hinge.axis, dtype=float)
             parent, joint = joints[parents[row]], kinds[body.hinge.kind](axis / np.linalg.norm(axis))
             place = np.asarray(body.hinge.place, dtype=float)

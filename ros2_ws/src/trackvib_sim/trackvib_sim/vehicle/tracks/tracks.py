@@ -5,7 +5,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ...rui.compiled import kernel
-from ...rui.kinematics import ORIGIN, motion_vector
+from ...rui.cuts import apply_wrench
+from ...rui.kinematics import ORIGIN, motion_vector, rotation
+from ...rui.spatial import rotate
 from .ground import Ground, add_ground, ground, road_height
 from .layout import fit_idler, idler_load
 from .nodes import Chain, add_links, chain, move_nodes, new_node_work, new_nodes, see_from_hull
@@ -16,7 +18,6 @@ from .wheels import (
     HEAT,
     IDLERS,
     LOAD,
-    MOMENT,
     ROAD_WHEELS,
     STORED,
     Wheels,
@@ -136,12 +137,8 @@ def _add_wheels(tracks, state, side, motion, cuts, work):
             work.heat[TENSIONERS] += heat
             work.stored[TENSIONERS] += stored
             # the rim's force acts at the shifted hub; the slide carries its moment about the idler's own place
-            for axis in range(3):
-                load[MOMENT + axis] = 0.0
-            load[MOMENT + 1], load[MOMENT + 2] = -travel * load[FORCE + 2], travel * load[FORCE + 1]
-            for axis in range(3):
-                load[FORCE + axis] = 0.0
-            push_body(cuts, motion, hull, hull, load)
+            moment = (0.0, -travel * load[FORCE + 2], travel * load[FORCE + 1])
+            apply_wrench(cuts, hull, (0.0, 0.0, 0.0), rotate(rotation(motion, hull), moment))
 
 
 @kernel
