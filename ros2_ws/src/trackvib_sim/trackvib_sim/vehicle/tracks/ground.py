@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...rui.compiled import kernel
-from .nodes import LOW, RISE, SAMPLE, STRIDE
+from .nodes import GROUND, LOW, RISE, SAMPLE, SHEAR, STRIDE, VELOCITY
 
 LEAST = 1e-9  # N, against division by zero where a shoe is not pulled at all
 
@@ -71,12 +71,13 @@ def add_ground(ground, nodes, heights, first, spacing, begin, end, work, dt):
         cosine = 1.0 / np.sqrt(1.0 + slope * slope)
         sine = slope * cosine
         depth = (low + (nodes[i] / spacing - work[SAMPLE * STRIDE + i]) * rise - nodes[2 * STRIDE + i]) * cosine
-        vx, vy, vz = nodes[3 * STRIDE + i], nodes[4 * STRIDE + i], nodes[5 * STRIDE + i]
+        vx, vy = nodes[VELOCITY * STRIDE + i], nodes[(VELOCITY + 1) * STRIDE + i]
+        vz = nodes[(VELOCITY + 2) * STRIDE + i]
         up, ahead = cosine * vz - sine * vx, cosine * vx + sine * vz
         on = 1.0 if depth > 0.0 else 0.0
         spring = on * k_n * depth
         normal = on * max(spring - c_n * up, 0.0)
-        shear_x, shear_y = nodes[6 * STRIDE + i], nodes[7 * STRIDE + i]
+        shear_x, shear_y = nodes[SHEAR * STRIDE + i], nodes[(SHEAR + 1) * STRIDE + i]
         before = shear_x * shear_x + shear_y * shear_y
         pull_x = k_s * (shear_x + dt * ahead) + c_s * ahead
         pull_y = k_s * (shear_y + dt * vy) + c_s * vy
@@ -84,11 +85,11 @@ def add_ground(ground, nodes, heights, first, spacing, begin, end, work, dt):
         pull_x, pull_y = cut * pull_x, cut * pull_y
         shear_x = on * (pull_x - c_s * ahead) / k_s
         shear_y = on * (pull_y - c_s * vy) / k_s
-        nodes[6 * STRIDE + i] = shear_x
-        nodes[7 * STRIDE + i] = shear_y
-        work[9 * STRIDE + i] = -sine * normal - cosine * pull_x
-        work[10 * STRIDE + i] = -pull_y
-        work[11 * STRIDE + i] = cosine * normal - sine * pull_x
+        nodes[SHEAR * STRIDE + i] = shear_x
+        nodes[(SHEAR + 1) * STRIDE + i] = shear_y
+        work[GROUND * STRIDE + i] = -sine * normal - cosine * pull_x
+        work[(GROUND + 1) * STRIDE + i] = -pull_y
+        work[(GROUND + 2) * STRIDE + i] = cosine * normal - sine * pull_x
         after = shear_x * shear_x + shear_y * shear_y
         heat += up * (spring - normal) + pull_x * ahead + pull_y * vy
         stored += 0.5 * (spring * depth + k_s * after)
