@@ -116,7 +116,7 @@ def end_step(system, state, road, work, sensors, sample, share):
     state.flight[0] = 0.0 if work.tracks.touching[0] > 0.0 else state.flight[0] + system.dt
     if state.flight[0] > LONGEST_FLIGHT:
         return AIRBORNE
-    if track_skips(system.tracks, state.tracks, state.tree):
+    if track_skips(work.tracks):
         return SKIPPED
     return GOOD
 

@@ -35,11 +35,12 @@ def lay_tracks(vehicle, system, state, speed, phase):
         # against the order of the chain, which lies still on the ground
         node[3], node[5] = speed * (1.0 - direction[:, 0]), -speed * direction[:, 1]
         state.tracks.link[side] = [1 + _nearest(place, point) for point in _lowest_points(vehicle, travel)]
-        state.tracks.rear[side] = 1 + _nearest(place, sprocket - (radius, 0.0))
-        teeth = tracks.sprockets.teeth
+        rear, teeth = _nearest(place, sprocket - (radius, 0.0)), tracks.sprockets.teeth
         angle = _tooth_angle(place - sprocket, radius, teeth)
+        behind = np.arctan2(place[rear, 1] - sprocket[1], sprocket[0] - place[rear, 0])
         state.tree.hinge[tracks.sprockets.row[side]] = angle
-        state.tracks.passed[side] = 0.5 * angle * teeth / pi
+        state.tracks.rear[side] = 1 + rear
+        state.tracks.passed[side] = 0.5 * (angle - behind) * teeth / pi
 
 
 def _lowest_points(vehicle, travel):

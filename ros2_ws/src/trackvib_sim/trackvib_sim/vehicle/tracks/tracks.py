@@ -10,7 +10,7 @@ from ...rui.kinematics import ORIGIN, motion_vector, rotation
 from ...rui.spatial import rotate
 from .ground import Ground, add_ground, ground, road_height
 from .layout import fit_idler, idler_load
-from .nodes import Chain, add_links, chain, move_nodes, new_node_work, new_nodes, see_from_hull
+from .nodes import STRIDE, Chain, add_links, chain, move_nodes, new_node_work, new_nodes, see_from_hull
 from .sprockets import Sprockets, add_sprocket, find_rear, sprockets
 from .tensioner import Tensioner, TensionerState, move_slide, slide_energy, tensioner
 from .wheels import (
@@ -30,9 +30,7 @@ from .wheels import (
 
 LINKS, GROUND, RIMS, TEETH, TENSIONERS = range(5)  # where energy goes
 SINKS = 5
-# Teeth between the turn of a sprocket and the pins that passed. In mesh it swings between 0.5 and -1.5, as the rearmost
-# pin is one or the next; a track that skips goes on skipping.
-MESHED = 2.5
+MESHED = 0.75  # teeth by which the rearmost pin may be away from its gap; from half a tooth on it is over the next one
 
 
 class Tracks(NamedTuple):
@@ -51,7 +49,7 @@ class TrackState(NamedTuple):
     nodes: np.ndarray  # (2, NODE_STATE STRIDE)
     link: np.ndarray  # (2, 11) that each wheel touches
     rear: np.ndarray  # (2,) rearmost node, on the sprocket
-    passed: np.ndarray  # (2,) pins that passed the sprocket, counted from where it had the angle zero
+    passed: np.ndarray  # (2,) pins that became the rearmost, from where nothing is `away`
     tensioner: TensionerState
 
 
@@ -64,6 +62,7 @@ class TrackWork(NamedTuple):
     heat: np.ndarray  # (SINKS,) W
     stored: np.ndarray  # (SINKS,) J
     touching: np.ndarray  # (1,) shoes on the ground
+    away: np.ndarray  # (2,) teeth between the rearmost pin and the gap that it belongs to
 
 
 def tracks(vehicle, rows):
@@ -92,7 +91,15 @@ def new_track_state(tracks):
 
 def new_track_work():
     """Return working room."""
-    return TrackWork(new_node_work(), np.zeros(LOAD), np.zeros(2), np.zeros(SINKS), np.zeros(SINKS), np.zeros(1))
+    return TrackWork(
+        nodes=new_node_work(),
+        load=np.zeros(LOAD),
+        push=np.zeros(2),
+        heat=np.zeros(SINKS),
+        stored=np.zeros(SINKS),
+        touching=np.zeros(1),
+        away=np.zeros(2),
+    )
 
 
 @kernel
@@ -149,9 +156,11 @@ def _add_sprocket(tracks, state, side, tree_state, motion, cuts, work):
     state.rear[side] = rear
     # steps of a few pins at most, where the numbers begin anew as well
     state.passed[side] += (rear - before + n + n // 2) % n - n // 2
-    hub = hub_of(motion, hull, row, 0.0, 0.0)
+    hub, nodes, angle = hub_of(motion, hull, row, 0.0, 0.0), work.nodes[side], tree_state.hinge[row]
+    behind = np.arctan2(nodes[2 * STRIDE + rear] - hub.z, hub.x - nodes[rear])
+    work.away[side] = (angle - behind) * tracks.sprockets.teeth / (2.0 * np.pi) - state.passed[side]
     load[:] = 0.0
-    add_sprocket(tracks.sprockets, hub, tree_state.hinge[row], rear, n, work.nodes[side], load)
+    add_sprocket(tracks.sprockets, hub, angle, rear, n, nodes, load)
     push_body(cuts, motion, hull, row, load)
     work.heat[TEETH] += load[HEAT]
     work.stored[TEETH] += load[STORED]
@@ -199,10 +208,6 @@ def wheel_below_road(tracks, road, motion):
 
 
 @kernel
-def track_skips(tracks, state, tree_state):
-    """Return whether a sprocket has turned by other than the pins that passed it."""
-    share = 2.0 * np.pi / tracks.sprockets.teeth
-    for side in range(2):
-        if abs(tree_state.hinge[tracks.sprockets.row[side]] / share - state.passed[side]) > MESHED:
-            return True
-    return False
+def track_skips(work):
+    """Return whether a pin has left its gap for another."""
+    return abs(work.away[0]) > MESHED or abs(work.away[1]) > MESHED
