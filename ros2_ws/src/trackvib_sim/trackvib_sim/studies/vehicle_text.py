@@ -6,7 +6,7 @@ import re
 import numpy as np
 import yaml
 
-_WITHIN = re.compile(r"(^|; )(\[\d+\] )?within \S+ to \S+")
+_WITHIN = re.compile(r"(^|; )(\[\d+\] )?within \S+ to [^\s;]+")
 
 
 def calibrated(text, parameters, values):
