@@ -2,6 +2,7 @@
 
 import sys
 import time
+from typing import NamedTuple
 
 from rclpy.duration import Duration
 from sensor_msgs.msg import Imu
@@ -10,6 +11,7 @@ from trackvib_msgs.msg import CoilCurrent
 from .laws import find_law
 from .laws.base import LawError, Sample, answer
 from .node_support import LOOP_QOS, LOOP_WRITER_QOS, LoopNode, NodeError, run_node
+from .packed_message import NANO, MessageReader
 from .parameters import Parameter, ParameterError
 
 PARAMETERS = (
@@ -17,8 +19,15 @@ PARAMETERS = (
     Parameter("sample_rate", 1000, "Rate of the Imu messages.", "Hz", 10, 10000),
     Parameter("wait_for_recorder", False, "Answer nothing before a recorder listens to the currents, too."),
 )
-NANO = 1_000_000_000
 _CLASH = 5  # wrong steps from the very first sample on are not gaps but another rate
+
+
+class Reading(NamedTuple):
+    """What one sensor measured over a period."""
+
+    stamp: int  # ns
+    force: tuple  # specific force, m/s^2
+    rate: tuple  # angular velocity, rad/s
 
 
 class ControllerNode(LoopNode):
@@ -33,13 +42,15 @@ class ControllerNode(LoopNode):
             raise ParameterError(f"controller: parameter 'sample_rate' is {rate}, accepted are divisors of {NANO} Hz")
         self._period = NANO // rate
         self._law = law(self._period / NANO, **values)
-        self._chassis = self._powertrain = None  # latest messages
+        self._imu = MessageReader(Imu, {"header": "iI", "angular_velocity": "3d", "linear_acceleration": "3d"})
+        self._chassis = self._powertrain = None  # latest readings
         self._last = None  # stamp answered last, ns
         self._steps = self._gaps = 0  # between samples, and those among them that were not one period
         self._answer = CoilCurrent()
+        self._stamp = self._answer.header.stamp = self._answer.sample_stamp
         self._currents = self.create_publisher(CoilCurrent, "coil_current", LOOP_WRITER_QOS)
-        self.create_subscription(Imu, "chassis/imu", self._on_chassis, LOOP_QOS)
-        self.create_subscription(Imu, "powertrain/imu", self._on_powertrain, LOOP_QOS)
+        self.create_subscription(Imu, "chassis/imu", self._on_chassis, LOOP_QOS, raw=True)
+        self.create_subscription(Imu, "powertrain/imu", self._on_powertrain, LOOP_QOS, raw=True)
 
     def run(self):
         """Say what runs, wait for a simulator or vehicle, answer until told to stop."""
@@ -52,20 +63,24 @@ class ControllerNode(LoopNode):
         if self._gaps:
             self.get_logger().warning(f"{self._gaps} gaps between the stamps of the samples")
 
-    def _on_chassis(self, message):
-        self._chassis = message
+    def _on_chassis(self, data):
+        self._chassis = self._reading(data)
         self._pair()
 
-    def _on_powertrain(self, message):
-        self._powertrain = message
+    def _on_powertrain(self, data):
+        self._powertrain = self._reading(data)
         self._pair()
+
+    def _reading(self, data):
+        seconds, nanoseconds, *numbers = self._imu.read(data)
+        return Reading(seconds * NANO + nanoseconds, tuple(numbers[3:]), tuple(numbers[:3]))
 
     def _pair(self):
         chassis, powertrain = self._chassis, self._powertrain
-        if chassis is None or powertrain is None or chassis.header.stamp != powertrain.header.stamp:
+        if chassis is None or powertrain is None or chassis.stamp != powertrain.stamp:
             return
         self._chassis = self._powertrain = None
-        stamp = chassis.header.stamp.sec * NANO + chassis.header.stamp.nanosec
+        stamp = chassis.stamp
         if self._last is None:
             self._wait_for_listeners()
         elif stamp <= self._last:
@@ -75,18 +90,12 @@ class ControllerNode(LoopNode):
         else:
             self._check_step(stamp - self._last)
         self._last = stamp
-        sample = Sample(
-            stamp / NANO,
-            _xyz(chassis.linear_acceleration),
-            _xyz(chassis.angular_velocity),
-            _xyz(powertrain.linear_acceleration),
-            _xyz(powertrain.angular_velocity),
-        )
+        sample = Sample(stamp / NANO, chassis.force, chassis.rate, powertrain.force, powertrain.rate)
         try:
             currents = answer(self._law, sample)
         except LawError as error:
             raise NodeError(str(error)) from None
-        self._answer.header.stamp = self._answer.sample_stamp = chassis.header.stamp
+        self._stamp.sec, self._stamp.nanosec = divmod(stamp, NANO)
         self._answer.current = currents
         self._currents.publish(self._answer)
 
@@ -111,10 +120,6 @@ class ControllerNode(LoopNode):
         # no callbacks are served here: the sample at hand is the one to answer
         while self._currents.get_subscription_count() < wanted and not self.stopping():
             time.sleep(0.01)
-
-
-def _xyz(vector):
-    return (vector.x, vector.y, vector.z)
 
 
 def main(args=None):

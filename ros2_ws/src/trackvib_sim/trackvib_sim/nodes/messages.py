@@ -1,13 +1,13 @@
 """From records of the simulation to messages; each translator keeps one message and fills it anew."""
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from mr_mount_controller.packed_message import PackedMessage
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu
 from trackvib_msgs.msg import MountState
 
 from ..simulation.settings import NANO
 from . import topics
-from .packed_message import PackedMessage
 
 
 def set_stamp(message, nanoseconds):

@@ -6,6 +6,7 @@ import time
 
 from builtin_interfaces.msg import Time
 from mr_mount_controller.node_support import LATCHED_QOS, LOOP_QOS, LoopNode, NodeError, run_node
+from mr_mount_controller.packed_message import MessageReader
 from rosgraph_msgs.msg import Clock
 from trackvib_msgs.msg import CoilCurrent, RoadProfile
 
@@ -44,7 +45,8 @@ class SimulatorNode(LoopNode):
         self._state = "waiting"
 
         self._output = SimulatorOutput(self, self._simulation, vehicle_text)
-        self._answers = self.create_subscription(CoilCurrent, topics.COIL_CURRENT, self._on_answer, LOOP_QOS)
+        self._answer = MessageReader(CoilCurrent, {"sample_stamp": "iI", "current": "2d"})
+        self._answers = self.create_subscription(CoilCurrent, topics.COIL_CURRENT, self._on_answer, LOOP_QOS, raw=True)
         self.create_subscription(RoadProfile, topics.ROAD_PROFILE, self._on_road, ROAD_QOS)
         self.create_subscription(Clock, topics.CLOCK, self._on_clock, CLOCK_QOS)
         if s["wait_for_recorder"]:
@@ -196,10 +198,10 @@ class SimulatorNode(LoopNode):
 
     # --- messages ---
 
-    def _on_answer(self, message):
-        stamp = message.sample_stamp.sec * NANO + message.sample_stamp.nanosec
+    def _on_answer(self, data):
+        seconds, nanoseconds, *currents = self._answer.read(data)
         # who is late is on the way back; who repeats itself or makes no sense is not
-        self._heard |= self._exchange.offer(stamp, message.current) in ("accepted", "late")
+        self._heard |= self._exchange.offer(seconds * NANO + nanoseconds, currents) in ("accepted", "late")
 
     def _on_clock(self, message):
         self._clock_ahead |= message.clock.sec * NANO + message.clock.nanosec > self._simulation.time

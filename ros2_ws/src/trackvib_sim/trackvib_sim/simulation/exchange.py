@@ -1,6 +1,7 @@
 """Which current answers which sample: the rules of the lock-step, without any transport."""
 
 from collections import Counter
+from math import isfinite
 
 import numpy as np
 
@@ -60,13 +61,14 @@ class Exchange:
 
     def _put_in_force(self, currents):
         self.currents[:] = currents
-        if self.currents.min() < self._usable[0] or self.currents.max() > self._usable[1]:
+        low, high = self._usable
+        if not all(low <= current <= high for current in self.currents.tolist()):
             self.counts["saturated"] += 1
 
     def _judge(self, stamp, currents):
         if stamp > self._sample:
             return "early"
-        if not np.isfinite(currents).all():
+        if not all(map(isfinite, currents)):
             return "not_finite"
         if stamp == self._answered:
             return "duplicate"

@@ -8,7 +8,7 @@ from ..road.store import RoadStore
 from ..vehicle.system import body_rows, build_system, new_work
 from .run_in import run_in
 from .settings import NANO
-from .step import GOOD, REASONS, Sensors, advance, advance_many, new_sample, observe
+from .step import GOOD, REASONS, Sensors, advance_many, control_periods, new_sample, observe
 
 CHASSIS, POWERTRAIN = 0, 1  # rows of the sample
 HORIZON = 50.0  # m of road that a run in one process keeps ahead of the vehicle
@@ -55,6 +55,8 @@ class Simulation:
         )
         self.sample, self._next = new_sample(self.sensors), new_sample(self.sensors)
         self._work = new_work(self.system)
+        self._demanded = np.zeros(2)
+        self._held = self._statuses = None  # the road that the generator of control periods was made with, and itself
         observe(self.system, self.state, self._work.motion, self.sample)
         reach = max(abs(x) for x in (*vehicle.swing_arms.wheel_x, *vehicle.idlers.x, *vehicle.sprockets.x))
         self._reach = reach + _MARGIN
@@ -81,12 +83,20 @@ class Simulation:
         RunFailed
             The state left what the model can describe. `sample` is still the last good one.
         """
-        steps = self.settings.rates.steps
-        status = advance(
-            self.system, self.state, self._stretch(1), demanded, steps, self._work, self.sensors, self._next
-        )
+        self._hold(self._stretch(1))
+        self._demanded[:] = demanded
+        status = next(self._statuses)
         self._end_periods(status, 1 if status == GOOD else 0)
         self.sample, self._next = self._next, self.sample
+
+    def _hold(self, road):
+        """Hand all records to the kernel, unless it holds them with this road already."""
+        if road is not self._held:
+            steps = self.settings.rates.steps
+            self._statuses = control_periods(
+                self.system, self.state, road, self._demanded, steps, self._work, self.sensors, self._next, self.sample
+            )
+            self._held = road
 
     def advance_many(self, demanded, force, speed):
         """Do a control period for each row of `force` (k, m, 3) [m/s^2] and of `speed` (k,) [m/s].

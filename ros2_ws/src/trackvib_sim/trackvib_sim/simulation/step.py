@@ -141,6 +141,21 @@ def advance(system, state, road, demanded, steps, work, sensors, sample):
 
 
 @kernel
+def control_periods(system, state, road, demanded, steps, work, sensors, following, last):
+    """Generate the statuses of control periods as `advance` gives them, samples being filled in turns.
+
+    The first period fills `following`; the sample of a period that is not good is filled again. A generator keeps its
+    arguments as kernels take them: to hand over these records of hundreds of arrays anew costs half of the physics. It
+    does not own them.
+    """
+    while True:
+        status = advance(system, state, road, demanded, steps, work, sensors, following)
+        if status == GOOD:
+            following, last = last, following
+        yield status
+
+
+@kernel
 def advance_many(system, state, road, demanded, steps, work, sensors, sample, force, speed):
     """Advance by as many control periods as `force` (k, m, 3) and `speed` (k,) have rows, and fill them.
 
