@@ -61,7 +61,7 @@ class ControlLaw:
       trackvib) and the mounts use 0.7 to 4 A, and what is cut is counted. Anything else ends the run with `LawError`.
       The current takes some 8 ms to build up in the coil.
     * `update` answers soon. In lock-step the simulator waits for it, in real time a late answer is used late: at 1 kHz
-      some 0.1 ms are at hand, the laws here take 5 to 10 us.
+      some 0.1 ms are at hand, the laws here take less than some 10 us.
     * After `reset` the law behaves as if just made; memory is best set up there.
     * The same samples give the same currents, to the last bit, wherever the law runs. So it must not look at a clock,
       draw unseeded random numbers, start threads, read files in `update`, or depend on the order of a set.
