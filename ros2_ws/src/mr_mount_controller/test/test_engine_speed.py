@@ -7,7 +7,7 @@ from mr_mount_controller.laws.engine_order import EngineOrder
 from mr_mount_controller.laws.engine_speed import EngineSpeedEstimator
 
 PERIOD, FINE = 1e-3, 10
-MASS, INERTIA, CENTRE, MOUNTS = 3600.0, 3173.44, (0.48, 0.20), (0.80, 0.20)
+MASS, INERTIA, CENTRE, MOUNTS = 3600.0, 2653.0 + 3600.0 * (0.5399**2 + 0.05406**2), (0.5399, 0.05406), (0.80, 0.20)
 STILL = (0.0, 0.0, 0.0)
 RUN_UP = (450.0, 2100.0, 40.0)  # from, to [r/min], time [s]
 
