@@ -5,9 +5,9 @@ import pytest
 from mr_mount_controller.laws.base import Sample
 from mr_mount_controller.laws.engine_order import EngineOrder
 from mr_mount_controller.laws.engine_speed import EngineSpeedEstimator
+from mr_mount_controller.laws.two_mount_model import CENTRE, HINGE_INERTIA, MOUNTS, POWERTRAIN_MASS
 
 PERIOD, FINE = 1e-3, 10
-MASS, INERTIA, CENTRE, MOUNTS = 3600.0, 2653.0 + 3600.0 * (0.5399**2 + 0.05406**2), (0.5399, 0.05406), (0.80, 0.20)
 STILL = (0.0, 0.0, 0.0)
 RUN_UP = (450.0, 2100.0, 40.0)  # from, to [r/min], time [s]
 
@@ -26,7 +26,7 @@ def samples(speed, driving=10.0, noise=0.05, gyro_noise=5e-4, size=1.0, seed=0):
     passing = 2.0 * np.pi * driving / 0.115
     up = sum(a * np.sin(n * passing * time + n) for n, a in ((1, 0.5), (2, 1.0), (3, 0.3)))
     forward = 0.4 * up
-    alpha = (moment + MASS * (CENTRE[0] * up - CENTRE[1] * forward)) / INERTIA
+    alpha = (moment + POWERTRAIN_MASS * (CENTRE[0] * up - CENTRE[1] * forward)) / HINGE_INERTIA
     zero = np.zeros_like(time)
     force = np.stack((forward + MOUNTS[1] * alpha, zero, up - MOUNTS[0] * alpha + 9.81), axis=1)
     rate = np.stack((zero, np.cumsum(alpha) * step, zero), axis=1)
