@@ -110,7 +110,7 @@ def test_filter_finds_the_motion_of_the_model(sample, source):
     """On samples of the model itself, shaken by road or engine at soft current, deflection and rate are found.
 
     The estimator's washouts lead by 2 * 0.2 / 7 rad, and the filter, which does not know the forces, forgets what it
-    integrates with corners at 0.5 and 2.7 Hz: some 25 % of the deflection, less of its rate.
+    integrates with corners at 0.5 and 2.5 Hz: some 2.5 / 7 of the deflection, less of its rate.
     """
     law = ClippedOptimal(PERIOD, corner=0.2, firm_current=0.8)
     model, w = two_mount_model(0.8), 2.0 * np.pi * 7.0
@@ -126,7 +126,7 @@ def test_filter_finds_the_motion_of_the_model(sample, source):
             errors.append(np.array(law._state)[[1, 3]] - true[[1, 3]])
             sizes.append(true[[1, 3]])
     rms = np.sqrt(np.mean(np.square(errors), axis=0) / np.mean(np.square(sizes), axis=0))
-    assert rms[0] < 0.3 and rms[1] < 0.2, rms
+    assert rms[0] < 0.4 and rms[1] < 0.2, rms
     assert np.abs(sizes).max() > 1e-5
 
 
