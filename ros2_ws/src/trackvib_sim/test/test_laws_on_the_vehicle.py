@@ -55,8 +55,8 @@ def test_controller_knows_the_powertrain(vehicle):
 @pytest.mark.property
 @pytest.mark.parametrize("name", shipped_laws())
 def test_law_closes_the_loop(simulation, rough, name):
-    """On a rough road each law runs, the same twice to the last bit, within the currents that mounts can use."""
-    first, second = (run_closed_loop(simulation(10.0, 1650.0), rough, find_law(name)(PERIOD), 1200) for _ in range(2))
+    """On a rough road each law acts, the same twice to the last bit, within the currents that mounts can use."""
+    first, second = (run_closed_loop(simulation(10.0, 1650.0), rough, find_law(name)(PERIOD), 2000) for _ in range(2))
     assert all(a.tobytes() == b.tobytes() for a, b in zip(first, second, strict=True))
     assert first.current.min() >= mount.LOWEST_CURRENT and first.current.max() <= mount.HIGHEST_CURRENT
     assert len(np.unique(first.current)) > 1 or name == "passive"
