@@ -56,7 +56,7 @@ def test_a_harmonic_cycle_takes_pi_c_w_a_squared(system, swung, arms, current):
     expected = 4.0 * np.pi * c * arms[1] * 2.0 * np.pi * FREQUENCY * AMPLITUDE**2
     assert found.dissipated == pytest.approx(expected, rel=1e-3)
     assert found.work == pytest.approx(expected, rel=1e-3)
-    assert found.exchanged == 0.0 and abs(found.stored) < 1e-3 * expected
+    assert abs(found.exchanged) < 1e-9 and abs(found.stored) < 1e-3 * expected
     assert found.error < CLOSED
 
 
@@ -144,5 +144,5 @@ def test_work_of_the_imposed_displacement_is_in_the_account(simulation, level):
     moving = simulation(0.0, 2100.0, imposed=True)
     run_open_loop(moving, level, 1000)
     found = mount_account(moving.state.audit)
-    assert found.work > 1.0 and found.exchanged == 0.0
+    assert found.work > 1.0 and abs(found.exchanged) < 1e-9
     assert found.error < CLOSED
