@@ -49,7 +49,8 @@ def test_a_short_run_is_refused():
 def test_work_on_the_mounts_is_what_the_simulator_told():
     """Its diagnostics are text; what the account leaves over is set against its greatest part."""
     stamps = list(range(1, 101))
-    told = {"mount_work_J": "92.0", "mount_dissipated_J": "140.0", "mount_stored_J": "-2.0", "mount_exchanged_J": "-47.4"}
+    parts = {"work": "92.0", "dissipated": "140.0", "stored": "-2.0", "exchanged": "-47.4"}
+    told = {f"mount_{part}_J": energy for part, energy in parts.items()}
     found = mount_energy(drive(stamps, stamps, stamps, 0.1)._replace(diagnostics=told))
     assert found.residual == pytest.approx(1.4) and found.error == pytest.approx(0.01)
     assert found._replace(work=0.0, dissipated=0.0, stored=0.0, exchanged=0.0).error == 0.0
