@@ -13,6 +13,7 @@ from trackvib_msgs.msg import CoilCurrent, RoadProfile
 from ..simulation.exchange import Exchange
 from ..simulation.settings import NANO
 from ..simulation.simulation import RunFailed
+from ..vehicle.mount_audit import mount_account
 from . import topics
 from .output import SimulatorOutput
 from .qos import CLOCK_QOS, ROAD_QOS
@@ -226,6 +227,7 @@ class SimulatorNode(LoopNode):
             level = "warning"
         if self._state == "failed":
             level = "error"
+        mounts = mount_account(self._simulation.state.audit)
         values = {
             "state": self._state,
             "time": self._simulation.time / NANO,
@@ -233,6 +235,7 @@ class SimulatorNode(LoopNode):
             "controllers": controllers,
             "real_time_factor": round(self._phases.factor(self._simulation.time / NANO), 3),
             **counts,
+            **{f"mount_{part}_J": energy for part, energy in mounts._asdict().items()},
             **{f"{phase}_us_per_period": cost for phase, cost in self._phases.costs().items()},
         }
         self._output.publish_diagnostics(level, self._state, values)
