@@ -13,7 +13,7 @@ SCENARIOS = ("e10", "c20", "run_up", "bump")  # those of studies.controlled, whi
 
 @click.group()
 def study():
-    """Many runs of the whole vehicle, set beside published results."""
+    """Many runs of the whole vehicle, set beside published results or each other."""
 
 
 @contextmanager

@@ -83,12 +83,12 @@ def controllers(classes):
 
 def _print(console, rows, folder):
     table = Table("scenario", "quantity", title="gain over passive mounts, %", title_justify="left")
-    for name in ("best constant, A", "its gain over 1 A", "best law", "its gain over 1 A", "over best constant"):
+    for name in ("best constant, A", "over 1 A", "best law", "over 1 A", "over best constant", "chance"):
         table.add_column(name, justify="right")
     for each in verdict(rows):
         table.add_row(
             SCENARIOS[each.scenario].title, each.quantity, f"{each.current:g}", each.constant_gain.text(),
-            each.law, each.law_gain.text(), each.over_best.text(),
+            each.law, each.law_gain.text(), each.over_best.text(), f"{each.chance:.1f}",
         )  # fmt: skip
     console.print(table)
     for row in rows:

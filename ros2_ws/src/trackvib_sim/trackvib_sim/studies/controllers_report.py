@@ -5,7 +5,7 @@ import numpy as np
 from ..bags.versions import versions
 from .case_store import program, text_hash
 from .controlled import ABOVE_BAND, DRIVING, PASSIVE_CURRENT, QUANTITIES, SCENARIOS
-from .controllers_table import JUDGED, verdict
+from .controllers_table import ALIKE, JUDGED, verdict
 
 _HASH = 12  # digits
 
@@ -36,13 +36,17 @@ def _verdict(rows):
         "## What is gained",
         "",
         "By how many percent each quantity is less (negative: more), mean ± standard deviation over the seeds, every",
-        "seed compared with itself. Constant current and law are those with the least of that quantity.",
+        "seed compared with itself. Constant current and law are those with the least of that quantity. Chance is the",
+        f"scatter of the means among constant currents from {ALIKE:g} A on, whose mounts are nearly alike: tracks",
+        "amplify the smallest difference, and a gain of that size means nothing.",
         "",
-        *_header("scenario", "quantity", "best constant, A", "over 1 A", "best law", "over 1 A", "over best constant"),
+        *_header("scenario", "quantity", "best constant, A", "over 1 A", "best law", "over 1 A", "over best", "chance"),
     ]
     for each in verdict(rows):
-        gains = (each.constant_gain.text(), f"`{each.law}`", each.law_gain.text(), each.over_best.text())
-        lines.append(_line(SCENARIOS[each.scenario].title, f"`{each.quantity}`", f"{each.current:g}", *gains))
+        constant = f"{each.current:g}", each.constant_gain.text()
+        law = f"`{each.law}`", each.law_gain.text(), each.over_best.text()
+        scenario, quantity = SCENARIOS[each.scenario].title, f"`{each.quantity}`"
+        lines.append(_line(scenario, quantity, *constant, *law, f"{each.chance:.1f}"))
     return "\n".join(lines) + "\n"
 
 
@@ -51,7 +55,7 @@ def _share(rows):
         "## What no current reaches",
         "",
         f"Vertical acceleration of the powertrain above {ABOVE_BAND:g} Hz and of the hull, RMS in m/s²: with passive",
-        f"mounts at {PASSIVE_CURRENT:g} A, its part of the powertrain's mean square; from the least to the most of rows.",
+        f"mounts at {PASSIVE_CURRENT:g} A, part of the powertrain's mean square, from the least to the most of all.",
         "",
         *_header("scenario", f"above {ABOVE_BAND:g} Hz", "of the mean square", "least to most", "hull, least to most"),
     ]

@@ -10,6 +10,9 @@ from .controlled import GOOD, PASSIVE, PASSIVE_CURRENT, QUANTITIES, SCENARIOS
 JUDGED = ("powertrain", "powertrain_wk", "hull", "hull_wk", "force", "travel")  # the less the better
 
 
+ALIKE = 2.5  # A; from here on all constant currents give nearly the same mount, damping within 15 %
+
+
 class Row(NamedTuple):
     """One law, or one constant current, in a scenario over all seeds."""
 
@@ -50,6 +53,7 @@ class Verdict(NamedTuple):
     law: str
     law_gain: Gain  # over passive at 1 A
     over_best: Gain  # of the law over the best constant current
+    chance: float  # %, see `chance`
 
 
 def table_rows(found):
@@ -72,6 +76,15 @@ def gain(row, reference, quantity):
     return Gain(float(each.mean()), float(each.std()))
 
 
+def chance(constants, quantity):
+    """Return by how many percent a quantity's means scatter among constant currents that are nearly alike.
+
+    Tracks amplify the smallest difference, so that the best of several rows is better by about this much for nothing.
+    """
+    means = [row.mean(quantity) for row in constants if row.current >= ALIKE]
+    return 100.0 * float(np.std(means, ddof=1) / np.mean(means)) if len(means) > 1 else np.nan
+
+
 def verdict(rows):
     """Return the `Verdict`s by scenario and judged quantity, where a law and passive at 1 A have not failed."""
     found = []
@@ -85,7 +98,8 @@ def verdict(rows):
             constant, law = (min(them, key=lambda row: row.mean(quantity)) for them in (constants.values(), laws))
             passive = constants[PASSIVE_CURRENT]
             gains = (gain(constant, passive, quantity), gain(law, passive, quantity), gain(law, constant, quantity))
-            found.append(Verdict(scenario, quantity, constant.current, gains[0], law.law, *gains[1:]))
+            noise = chance(constants.values(), quantity)
+            found.append(Verdict(scenario, quantity, constant.current, gains[0], law.law, *gains[1:], noise))
     return found
 
 
