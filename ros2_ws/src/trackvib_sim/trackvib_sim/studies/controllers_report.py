@@ -67,13 +67,13 @@ def _share(rows):
         high = passive.mean("powertrain_high")
         share = (passive.levels["powertrain_high"] / passive.levels["powertrain"]) ** 2
         ranges = (_range(mine, quantity) for quantity in ("powertrain_high", "hull"))
-        lines.append(_line(SCENARIOS[scenario].title, f"{high:.2f}", f"{100.0 * share.mean():.0f} %", *ranges))
+        lines.append(_line(SCENARIOS[scenario].title, f"{high:#.3g}", f"{100.0 * share.mean():.0f} %", *ranges))
     return "\n".join(lines) + "\n"
 
 
 def _range(rows, quantity):
     values = [row.mean(quantity) for row in rows]
-    return f"{min(values):.2f} to {max(values):.2f}"
+    return f"{min(values):#.3g} to {max(values):#.3g}"
 
 
 def _levels(rows, scenario):
@@ -91,8 +91,8 @@ def _levels(rows, scenario):
 def _cell(row, quantity, least):
     """Bold where it is the least of all to the digits shown."""
     value = row.mean(quantity)
-    text = f"{value:.2f}" if np.isfinite(value) else "-"
-    return f"**{text}**" if quantity in JUDGED and text == f"{least[quantity]:.2f}" else text
+    text = f"{value:#.3g}" if np.isfinite(value) else "-"
+    return f"**{text}**" if quantity in JUDGED and text == f"{least[quantity]:#.3g}" else text
 
 
 def _header(*names):

@@ -36,11 +36,11 @@ class Gain(NamedTuple):
     """By how many percent a quantity is less, over the seeds, each compared with itself."""
 
     mean: float
-    scatter: float  # standard deviation over the seeds
+    scatter: float  # standard deviation over the seeds; not a number where there is one run
 
     def text(self):
         """Return it as a cell."""
-        return f"{self.mean:+.1f} ± {self.scatter:.1f}"
+        return f"{self.mean:+.1f}" + (f" ± {self.scatter:.1f}" if np.isfinite(self.scatter) else "")
 
 
 class Verdict(NamedTuple):
@@ -73,7 +73,7 @@ def _row(key, results):
 def gain(row, reference, quantity):
     """Return the `Gain` of a row over another one of its scenario."""
     each = 100.0 * (1.0 - row.levels[quantity] / reference.levels[quantity])
-    return Gain(float(each.mean()), float(each.std()))
+    return Gain(float(each.mean()), float(each.std()) if each.size > 1 else np.nan)
 
 
 def chance(constants, quantity):
