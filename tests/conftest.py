@@ -7,7 +7,6 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections import defaultdict
 from pathlib import Path
 
 import pytest
@@ -133,7 +132,7 @@ def start_node(start):
 
 
 class Observer:
-    """A node in the test's own process: follows the simulator's diagnostics, calls its services, gathers messages."""
+    """A node in the test's own process: follows the simulator's diagnostics, calls its services."""
 
     def __init__(self, domain):
         self._context = rclpy.Context()
@@ -143,14 +142,9 @@ class Observer:
         self._executor.add_node(self._node)
         self._node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, 1000)
         self.values = {}  # latest diagnostics, as text
-        self.gathered = defaultdict(list)  # topic -> serialised messages
 
     def _on_diagnostics(self, message):
         self.values = {pair.key: pair.value for pair in message.status[0].values}
-
-    def gather(self, message_type, topic):
-        """Keep all messages of a topic from now on."""
-        self._node.create_subscription(message_type, topic, self.gathered[topic].append, 10_000, raw=True)
 
     def wait_until(self, condition):
         """Wait until `condition()`."""

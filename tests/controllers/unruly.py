@@ -1,4 +1,4 @@
-"""A controller that answers every sample properly, but first or from some sample on with something that must not count."""
+"""A controller that answers properly, but beside it, or from some sample on instead, something that must not count."""
 
 import sys
 import time

@@ -104,7 +104,8 @@ class LoopNode(Node):
 def run_node(make_node, args=None, companions=()):
     """Make a node, run it until it ends or a signal asks it to, and return the process's exit code.
 
-    Further nodes, made by `companions`, share its process and executor: they answer callbacks while it waits. The signals only set a flag, once; rclpy's own handlers end a node in the middle of whatever it does.
+    Further nodes, made by `companions`, share its process and executor: they answer callbacks while it waits. The
+    signals only set a flag, once; rclpy's own handlers end a node in the middle of whatever it does.
     """
     stop = []
     for number in (signal.SIGINT, signal.SIGTERM):

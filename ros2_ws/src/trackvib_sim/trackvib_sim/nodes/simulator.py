@@ -240,9 +240,7 @@ class SimulatorNode(LoopNode):
         if controllers > 1 and not self._warned:
             self._warned = True
             self.get_logger().warning(f"{controllers} nodes answer on {topics.COIL_CURRENT}; the first answer counts")
-        level, values = health(
-            self._control, self._simulation, self._exchange, self._phases, self._silent, controllers
-        )
+        level, values = health(self._control, self._simulation, self._exchange, self._phases, self._silent, controllers)
         values["duration"] = self.settings["duration"]
         self._output.publish_diagnostics(level, values["state"], values)
 
