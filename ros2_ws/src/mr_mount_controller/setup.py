@@ -14,7 +14,7 @@ setup(
         ("share/ament_index/resource_index/packages", [f"resource/{name}"]),
         (f"share/{name}", ["package.xml"]),
     ],
-    install_requires=["setuptools", "numpy"],
+    install_requires=["setuptools", "numpy", "scipy"],
     extras_require={"test": ["pytest"]},
     zip_safe=True,
     entry_points={
@@ -23,6 +23,13 @@ setup(
         f"{name}.laws": [
             f"passive = {name}.laws.passive:Passive",
             f"skyhook = {name}.laws.skyhook:Skyhook",
+            f"continuous_skyhook = {name}.laws.hybrid:ContinuousSkyhook",
+            f"groundhook = {name}.laws.hybrid:Groundhook",
+            f"hybrid = {name}.laws.hybrid:Hybrid",
+            f"acceleration_driven = {name}.laws.acceleration_driven:AccelerationDriven",
+            f"mixed_skyhook_add = {name}.laws.acceleration_driven:MixedSkyhookAdd",
+            f"clipped_optimal = {name}.laws.clipped_optimal:ClippedOptimal",
+            f"engine_order = {name}.laws.engine_order:EngineOrder",
         ],
     },
 )

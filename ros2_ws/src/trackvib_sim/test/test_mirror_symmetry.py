@@ -69,8 +69,11 @@ def test_mirror_image_moves_as_the_mirror_image(simulation, partner, rows):
     assert np.abs(found.specific_force[:, :, 1]).max() > 0.1
 
 
-def test_tracks_in_phase_on_an_even_road_keep_the_vehicle_straight(simulation, level):
-    """Where left and right are alike nothing pushes sideways but what rounding leaves."""
-    found = run_open_loop(simulation(10.0, phase=0.0), level, 300)
+def test_tracks_in_phase_on_an_even_road_keep_the_vehicle_straight(easy_teeth, simulation, level):
+    """Where left and right are alike nothing pushes sideways but what rounding leaves.
+
+    With teeth that pins enter freely: hard impacts amplify rounding to full size within the run-in.
+    """
+    found = run_open_loop(simulation(10.0, phase=0.0, vehicle=easy_teeth), level, 300)
     assert np.abs(found.specific_force[:, :, 1]).max() < 1e-6
     assert np.ptp(found.specific_force[:, :, 2], axis=0).min() > 0.1

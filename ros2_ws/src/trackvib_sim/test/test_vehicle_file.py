@@ -41,24 +41,24 @@ def test_published_values_are_the_papers(vehicle):
     assert (e.rated_speed, e.speed_range, e.imposed_amplitude) == (1650.0, [450.0, 2100.0], 2e-4)
 
 
-MASS = "mass: {value: 20000.0, unit: kg, source: assumed}"
+MASS = "mass: {value: 9000.0, unit: kg, source: assumed}"
 BAD = [
-    (MASS, "", ("hull.mass", "required")),
-    (MASS, MASS + "\n  colour: {value: 1.0, unit: m, source: assumed}", ("hull.colour", "1.0", "not permitted")),
-    (MASS, MASS.replace("kg", "t"), ("hull.mass", "unit is 't'", "must be 'kg'")),
-    (MASS, MASS.replace("assumed", "guessed"), ("hull.mass", "source is 'guessed'", ", ".join(SOURCES))),
-    (MASS, MASS.replace("20000.0", "-1.0"), ("hull.mass is -1.0", "greater than 0")),
-    (MASS, MASS.replace("20000.0", "0.0"), ("hull.mass is 0.0", "greater than 0")),
-    (MASS, MASS.replace("20000.0", ".nan"), ("hull.mass is nan", "finite")),
-    (MASS, MASS.replace("20000.0", ".inf"), ("hull.mass is inf", "finite")),
-    (MASS, MASS.replace("20000.0", "heavy"), ("hull.mass is 'heavy'", "number")),
-    (MASS, MASS.replace("20000.0", "true"), ("hull.mass", "value is True", "must be a number")),
-    (MASS, MASS.replace("20000.0", "[1.0]"), ("hull.mass is [1.0]", "number")),
-    (MASS, "mass: 20000.0", ("hull.mass", "must be written {value: ..., unit: kg, source: ...}")),
-    (MASS, MASS.replace("source", "origin"), ("hull.mass", "must be written", "source: ...")),
-    (MASS, MASS.replace("}", ", error: 5.0}"), ("hull.mass", "must be written", "a note may follow")),
-    ("centre: {value: [-0.10, 0.0, 1.05]", "centre: {value: [-0.10, 1.05]", ("hull.centre", "at least 3")),
-    ("centre: {value: [-0.10, 0.0, 1.05]", "centre: {value: [0, .nan, 0]", ("hull.centre.1 is nan", "finite")),
+    (MASS, "", ("turret.mass", "required")),
+    (MASS, MASS + "\n  colour: {value: 1.0, unit: m, source: assumed}", ("turret.colour", "1.0", "not permitted")),
+    (MASS, MASS.replace("kg", "t"), ("turret.mass", "unit is 't'", "must be 'kg'")),
+    (MASS, MASS.replace("assumed", "guessed"), ("turret.mass", "source is 'guessed'", ", ".join(SOURCES))),
+    (MASS, MASS.replace("9000.0", "-1.0"), ("turret.mass is -1.0", "greater than 0")),
+    (MASS, MASS.replace("9000.0", "0.0"), ("turret.mass is 0.0", "greater than 0")),
+    (MASS, MASS.replace("9000.0", ".nan"), ("turret.mass is nan", "finite")),
+    (MASS, MASS.replace("9000.0", ".inf"), ("turret.mass is inf", "finite")),
+    (MASS, MASS.replace("9000.0", "heavy"), ("turret.mass is 'heavy'", "number")),
+    (MASS, MASS.replace("9000.0", "true"), ("turret.mass", "value is True", "must be a number")),
+    (MASS, MASS.replace("9000.0", "[1.0]"), ("turret.mass is [1.0]", "number")),
+    (MASS, "mass: 9000.0", ("turret.mass", "must be written {value: ..., unit: kg, source: ...}")),
+    (MASS, MASS.replace("source", "origin"), ("turret.mass", "must be written", "source: ...")),
+    (MASS, MASS.replace("}", ", error: 5.0}"), ("turret.mass", "must be written", "a note may follow")),
+    ("centre: {value: [-0.15, 0.0, 0.35]", "centre: {value: [-0.15, 0.35]", ("turret.centre", "at least 3")),
+    ("centre: {value: [-0.15, 0.0, 0.35]", "centre: {value: [0, .nan, 0]", ("turret.centre.1 is nan", "finite")),
     ("orders: {value: [2.0, 3.0, 6.0]", "orders: {value: [2.0, 3.0]", ("engine", "force has 3 rows", "each order")),
     ("current_range: {value: [0.7, 4.0]", "current_range: {value: [4.0, 0.7]",
      ("mr_mounts.current_range", "[4.0, 0.7]", "first must be below")),
@@ -70,7 +70,7 @@ BAD = [
     ("stations: {value: [1, 2, 6]", "stations: {value: [1.5, 2, 6]", ("stations is [1.5", "whole numbers")),
     ("links: {value: 120,", "links: {value: 120.5,", ("tracks.links is 120.5", "multiple of 1")),
     ("links: {value: 120,", "links: {value: 500,", ("tracks.links is 500", "less than or equal to 198")),
-    ("teeth: {value: 16,", "teeth: {value: 3,", ("sprocket_teeth.teeth is 3", "greater than or equal to 6")),
+    ("teeth: {value: 14,", "teeth: {value: 3,", ("sprocket_teeth.teeth is 3", "greater than or equal to 6")),
     ("x: {value: [-3.05]", "x: {value: [-3.05, 1.0]", ("sprockets", "2 places and z 1", "as many")),
 ]  # fmt: skip
 
@@ -89,10 +89,10 @@ def test_bad_items_are_named(content, good, bad, words):
 @pytest.mark.property
 def test_every_bad_item_is_named(content):
     """Two bad items give two lines."""
-    text = content.replace("20000.0, unit: kg", "-1.0, unit: kg").replace('unit: "1/revolution"', "unit: Hz")
+    text = content.replace("9000.0, unit: kg", "-1.0, unit: kg").replace('unit: "1/revolution"', "unit: Hz")
     lines = refusal(text).splitlines()
     assert len(lines) == 2
-    assert "hull.mass" in lines[0] and "engine.orders" in lines[1]
+    assert "turret.mass" in lines[0] and "engine.orders" in lines[1]
 
 
 @pytest.mark.property

@@ -29,12 +29,16 @@ def find_law(name):
     """
     for entry in entry_points(group=GROUP):
         if entry.name == name:
-            return entry.load()
-    module, _, attribute = name.partition(":")
-    if not attribute:
+            return _load(name, entry.value)
+    if not name.partition(":")[2]:
         raise ParameterError(
             f"parameter 'law' is {name!r}, accepted is one of {', '.join(known_laws())}, or package.module:Class"
         )
+    return _load(name, name)
+
+
+def _load(name, place):
+    module, _, attribute = place.partition(":")
     try:
         law = getattr(import_module(module), attribute)
     except (ImportError, AttributeError, TypeError, ValueError) as error:

@@ -6,12 +6,16 @@ import numpy as np
 
 
 class Sample(NamedTuple):
-    """What both inertial sensors measured over one period, in the axes of their bodies (x forward, y left, z up)."""
+    """What both inertial sensors measured over one period, in the axes of their bodies (x forward, y left, z up).
 
-    time: float  # s, end of the period
-    chassis_force: tuple  # specific force at the mounts' lower ends, m/s^2; +9.81 along z at rest
-    chassis_rate: tuple  # angular velocity, rad/s
-    powertrain_force: tuple  # the same at the mounts' upper ends
+    Specific force is acceleration less gravity (REP-145): +9.81 m/s^2 along z at rest. Both sensors sit in the middle
+    between the left and the right mount. All are plain floats, finite, and means over the period.
+    """
+
+    time: float  # s, end of the period; simulated time where a simulator runs, counted from the start of the run
+    chassis_force: tuple  # (3,) specific force at the mounts' lower ends, m/s^2
+    chassis_rate: tuple  # (3,) angular velocity, rad/s
+    powertrain_force: tuple  # (3,) the same at the mounts' upper ends
     powertrain_rate: tuple
 
 
@@ -23,23 +27,69 @@ class ControlLaw:
     """Base class of control laws.
 
     A law turns each sample of the accelerations into the currents that the mounts' coils shall carry from that sample
-    on. Whoever runs it (the controller node, the loop in one process) promises:
+    on. A subclass must have `update`; it may declare `parameters`, and extend `reset` and `__init__`. The same class
+    runs on the controller node, in the loop in one process and in studies, none of which it can tell apart.
 
-    * `__init__(period, **values)` is called once, with the sampling period [s] and a value for every entry of
-      `parameters`, each already checked against its range. A subclass that needs to prepare extends it and calls
-      `super().__init__(period, **values)`, which stores the period, stores each value as an attribute of its name
-      and calls `reset`.
-    * `reset()` is called at the end of that and whenever the vehicle starts anew. After it the law must behave as if
-      just made; a law that remembers sets up its memory here.
-    * `update(sample)` is called once for every sample, in order of time, one period apart. It must return one finite
-      current [A] for both mounts, or a pair (left, right). It may return any finite value: the driver cuts it to its
-      limits, and the cut is counted.
+    Attributes
+    ----------
+    parameters : tuple of mr_mount_controller.parameters.Parameter
+        Class attribute: name, default, description, unit and range of each, in the order in which documents list them.
+        The node declares them as its own ROS parameters, from which come their checks and what `ros2 param describe`
+        says; `docs/controllers.md` is made from the same. A name must be a Python identifier, other than `law`,
+        `sample_rate` and `wait_for_recorder`, which are the node's own, and than the attributes here.
+    period : float
+        Sampling period [s], from `__init__` on. A law must work at any from 0.1 ms to 0.1 s, if not well at all.
 
-    A law may keep whatever it likes in `self` between samples. It must not look at a clock, draw unseeded random
-    numbers or start threads: the same samples must give the same currents, to the last bit, wherever the law runs.
+    and one attribute for each parameter, with its value.
+
+    What whoever runs a law promises
+    --------------------------------
+    * `__init__(period, **values)` is called once, with a value of the default's type within its range for each
+      parameter, or without where the default shall be taken. A subclass that has to prepare extends it: it calls
+      `super().__init__(period, **values)` first, which sets the attributes and calls `reset`. Values that do not go
+      together it refuses with `ParameterError`; the node then ends with that message.
+    * `reset()` is called at the end of the base class's `__init__`, hence before a subclass's own `__init__` goes on,
+      and again whenever the time of the samples starts anew.
+    * `update(sample)` is called once for each sample, in order of time. Samples are one period apart; should one be
+      lost, the next comes all the same, its time tells, and the node counts the gap. All calls come from one thread,
+      none before `reset`.
+
+    What a law must do
+    ------------------
+    * `update` returns one finite current [A] for both mounts, or a pair (left, right): floats, ints, or a numpy array
+      of them. Any finite value will do: the driver cuts it to its limits (0 to 5 A on the vehicle that comes with
+      trackvib) and the mounts use 0.7 to 4 A, and what is cut is counted. Anything else ends the run with `LawError`.
+      The current takes some 8 ms to build up in the coil.
+    * `update` answers soon. In lock-step the simulator waits for it, in real time a late answer is used late: at 1 kHz
+      some 0.1 ms are at hand, the laws here take less than some 10 us.
+    * After `reset` the law behaves as if just made; memory is best set up there.
+    * The same samples give the same currents, to the last bit, wherever the law runs. So it must not look at a clock,
+      draw unseeded random numbers, start threads, read files in `update`, or depend on the order of a set.
+    * It may keep whatever it likes in `self`, and must not change the sample, its class or its module.
+    * It need not catch exceptions: one that `update` raises ends the node with a traceback.
+
+    See Also
+    --------
+    estimator.MotionEstimator : velocities at both ends of the mounts
+    semi_active.OnOffLaw, semi_active.DampingLaw : bases with soft and firm current and estimated motion
+
+    Examples
+    --------
+    Firm while the powertrain is pushed up:
+
+    >>> from mr_mount_controller.laws.base import ControlLaw, Sample
+    >>> from mr_mount_controller.parameters import Parameter
+    >>> class Upwards(ControlLaw):
+    ...     parameters = (Parameter("firm", 2.5, "Current on the way up.", "A", 0.7, 4.0),)
+    ...
+    ...     def update(self, sample):
+    ...         return self.firm if sample.powertrain_force[2] > 9.81 else 1.0
+    >>> law = Upwards(1e-3, firm=3.0)
+    >>> law.update(Sample(1e-3, (0.0, 0.0, 9.8), (0.0, 0.0, 0.0), (0.0, 0.0, 9.9), (0.0, 0.0, 0.0)))
+    3.0
     """
 
-    parameters = ()  # mr_mount_controller.parameters.Parameter, in the order in which documents list them
+    parameters = ()
 
     def __init__(self, period, **values):
         self.period = period

@@ -8,11 +8,11 @@ from trackvib_sim.vehicle.system import new_work
 
 
 @pytest.fixture(scope="session")
-def rolling(simulation):
+def rolling(vehicle, simulation):
     """A function that returns system and state of a vehicle that has rolled in on a level road, engine off."""
 
-    def make(speed=10.0, physics=10_000):
-        moving = simulation(speed=speed, physics=physics)
+    def make(speed=10.0, physics=10_000, vehicle=vehicle):
+        moving = simulation(speed=speed, physics=physics, vehicle=vehicle)
         return moving.system, moving.state
 
     return make

@@ -1,0 +1,1 @@
+"""Example of a controller of one's own."""
