@@ -10,12 +10,18 @@ import time
 from pathlib import Path
 
 import pytest
+import rclpy
 from ament_index_python.packages import get_package_prefix
+from diagnostic_msgs.msg import DiagnosticArray
+from rclpy.experimental import EventsExecutor
+from rclpy.signals import SignalHandlerOptions
+from std_srvs.srv import Trigger
 
 PACKAGES = {
     "simulator": "trackvib_sim",
     "road_excitation": "trackvib_sim",
     "recorder": "trackvib_sim",
+    "one_process": "trackvib_sim",
     "controller": "mr_mount_controller",
 }
 # Only a bound for what hangs; nothing here measures speed.
@@ -123,6 +129,55 @@ def start_node(start):
         return start(command)
 
     return make
+
+
+class Observer:
+    """A node in the test's own process: follows the simulator's diagnostics, calls its services."""
+
+    def __init__(self, domain):
+        self._context = rclpy.Context()
+        rclpy.init(context=self._context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
+        self._node = rclpy.create_node("observer", context=self._context)
+        self._executor = EventsExecutor(context=self._context)
+        self._executor.add_node(self._node)
+        self._node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, 1000)
+        self.values = {}  # latest diagnostics, as text
+
+    def _on_diagnostics(self, message):
+        self.values = {pair.key: pair.value for pair in message.status[0].values}
+
+    def wait_until(self, condition):
+        """Wait until `condition()`."""
+        end = time.monotonic() + PATIENCE
+        while not condition():
+            assert time.monotonic() < end, f"never came; the simulator last told {self.values}"
+            self._executor.spin_once(timeout_sec=0.1)
+
+    def wait_for(self, **values):
+        """Wait until the simulator tells values, given as text; returns its simulated time [s]."""
+        self.wait_until(lambda: values.items() <= self.values.items())
+        return float(self.values["time"])
+
+    def call(self, name):
+        """Call a service of the simulator; returns its response."""
+        client = self._node.create_client(Trigger, f"simulator/{name}")
+        self.wait_until(client.service_is_ready)
+        future = client.call_async(Trigger.Request())
+        self.wait_until(future.done)
+        return future.result()
+
+    def clean_up(self):
+        self._executor.shutdown()
+        self._node.destroy_node()
+        rclpy.try_shutdown(context=self._context)
+
+
+@pytest.fixture
+def observer(domain):
+    """An `Observer` in the domain of the test's processes."""
+    one = Observer(domain)
+    yield one
+    one.clean_up()
 
 
 @pytest.fixture

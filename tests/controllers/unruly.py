@@ -1,6 +1,7 @@
-"""A controller that answers every sample properly, but first with something that must not count."""
+"""A controller that answers properly, but beside it, or from some sample on instead, something that must not count."""
 
 import sys
+import time
 
 import rclpy
 from builtin_interfaces.msg import Time
@@ -24,21 +25,32 @@ def unruly(kind, stamp):
         "infinite": CoilCurrent(sample_stamp=stamp, current=[2.0, float("inf")]),
         "duplicate": CoilCurrent(sample_stamp=stamp, current=[4.0, 4.0]),
         "saturated": CoilCurrent(sample_stamp=stamp, current=[9.0, 9.0]),
+        "out_of_order": CoilCurrent(sample_stamp=shifted(stamp, -1_000_000), current=[4.0, 4.0]),
     }
     return answers[kind]
 
 
 def main():
     kind = sys.argv[1]
+    turns = int(sys.argv[2]) if len(sys.argv) > 2 else None  # sample, from which on it answers nothing proper
     rclpy.init()
     node = rclpy.create_node("unruly")
     publisher = node.create_publisher(CoilCurrent, "coil_current", 10)
 
     def answer(imu):
         proper = CoilCurrent(sample_stamp=imu.header.stamp, current=[2.0, 2.0])
+        number = (imu.header.stamp.sec * NANO + imu.header.stamp.nanosec) // 1_000_000
+        if kind == "slow":  # one answer takes its time
+            time.sleep(1.0 if number == turns else 0.0)
+            publisher.publish(proper)
+            return
         bad = unruly(kind, imu.header.stamp)
+        if turns is not None and number >= turns:
+            publisher.publish(bad)
+            return
         # a duplicate comes second; a current beyond the limits is itself the answer
-        for message in {"duplicate": (proper, bad), "saturated": (bad,)}.get(kind, (bad, proper)):
+        second = {"duplicate": (proper, bad), "out_of_order": (proper, bad), "saturated": (bad,)}
+        for message in second.get(kind, (bad, proper)):
             publisher.publish(message)
 
     node.create_subscription(Imu, "chassis/imu", lambda imu: None, 10)

@@ -39,6 +39,7 @@ setup(
     zip_safe=True,
     entry_points={
         "console_scripts": [
+            f"one_process = {name}.nodes.one_process:main",
             f"simulator = {name}.nodes.simulator:main",
             f"road_excitation = {name}.nodes.road_excitation:main",
             f"recorder = {name}.nodes.recorder:main",

@@ -19,6 +19,7 @@ PARAMETERS = (
     Parameter("sample_rate", 1000, "Rate of the Imu messages.", "Hz", 10, 10000),
     Parameter("wait_for_recorder", False, "Answer nothing before a recorder listens to the currents, too."),
 )
+_PATIENCE = 10.0  # s of wall time for those who shall hear the answers
 _CLASH = 5  # wrong steps from the very first sample on are not gaps but another rate
 
 
@@ -45,6 +46,7 @@ class ControllerNode(LoopNode):
         self._imu = MessageReader(Imu, {"header": "iI", "angular_velocity": "3d", "linear_acceleration": "3d"})
         self._chassis = self._powertrain = None  # latest readings
         self._last = None  # stamp answered last, ns
+        self._sample = None  # the sample answered last
         self._steps = self._gaps = 0  # between samples, and those among them that were not one period
         self._answer = CoilCurrent()
         self._stamp = self._answer.header.stamp = self._answer.sample_stamp
@@ -81,6 +83,12 @@ class ControllerNode(LoopNode):
             return
         self._chassis = self._powertrain = None
         stamp = chassis.stamp
+        sample = Sample(stamp / NANO, chassis.force, chassis.rate, powertrain.force, powertrain.rate)
+        if sample == self._sample:
+            # Sent twice, or the first of a new run after the first of the old one. The law has had it, and nothing
+            # after it, so the answer is the same.
+            self._currents.publish(self._answer)
+            return
         if self._last is None:
             self._wait_for_listeners()
         elif stamp <= self._last:
@@ -89,8 +97,7 @@ class ControllerNode(LoopNode):
             self._wait_for_listeners()
         else:
             self._check_step(stamp - self._last)
-        self._last = stamp
-        sample = Sample(stamp / NANO, chassis.force, chassis.rate, powertrain.force, powertrain.rate)
+        self._last, self._sample = stamp, sample
         try:
             currents = answer(self._law, sample)
         except LawError as error:
@@ -118,7 +125,12 @@ class ControllerNode(LoopNode):
         self._steps = self._gaps = 0
         wanted = 1 + self.settings["wait_for_recorder"]
         # no callbacks are served here: the sample at hand is the one to answer
+        end = time.monotonic() + _PATIENCE
         while self._currents.get_subscription_count() < wanted and not self.stopping():
+            if time.monotonic() > end:
+                heard = self._currents.get_subscription_count()
+                self.get_logger().warning(f"{heard} of {wanted} listen to the currents, answering all the same")
+                break
             time.sleep(0.01)
 
 

@@ -19,7 +19,7 @@ from .parameters import ParameterError
 # holds more, so that a recorder which is slow for a moment still gets everything.
 LOOP_QOS = QoSProfile(depth=10)
 LOOP_WRITER_QOS = QoSProfile(depth=1000)
-LATCHED_QOS = QoSProfile(depth=10, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
+LATCHED_QOS = QoSProfile(depth=50, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
 
 # rclpy declares these itself on every node
 _RCLPY_PARAMETERS = ("use_sim_time", "start_type_description_service", "qos_overrides")
@@ -74,10 +74,9 @@ class LoopNode(Node):
             self.spin_once(left)
         return True
 
-    def start(self, spin, stopping):
-        """Hand in the executor's spin function and the stop flag, then run."""
+    def prepare(self, spin, stopping):
+        """Hand in the executor's spin function and the stop flag."""
         self._spin, self.stopping = spin, stopping
-        self.run()
 
     def _declare(self, parameter):
         descriptor = ParameterDescriptor(
@@ -102,31 +101,35 @@ class LoopNode(Node):
             raise ParameterError(f"{self.get_name()}: {error}") from None
 
 
-def run_node(make_node, args=None):
+def run_node(make_node, args=None, companions=()):
     """Make a node, run it until it ends or a signal asks it to, and return the process's exit code.
 
-    The signals only set a flag, once; rclpy's own handlers end a node in the middle of whatever it does.
+    Further nodes, made by `companions`, share its process and executor: they answer callbacks while it waits. The
+    signals only set a flag, once; rclpy's own handlers end a node in the middle of whatever it does.
     """
     stop = []
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stop.append(True))
-    node = None
+    nodes = []
     try:
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
-        node = make_node()
-        node.refuse_unknown_parameters()
         executor = EventsExecutor()
-        executor.add_node(node)
+        for make in (*companions, make_node):
+            nodes.append(make())
+            nodes[-1].refuse_unknown_parameters()
+            nodes[-1].prepare(lambda timeout: executor.spin_once(timeout_sec=timeout), lambda: bool(stop))
+            executor.add_node(nodes[-1])
         try:
-            node.start(lambda timeout: executor.spin_once(timeout_sec=timeout), lambda: bool(stop))
+            nodes[-1].run()
         finally:
-            node.close()
+            for node in reversed(nodes):
+                node.close()
             executor.shutdown()
     except (ParameterError, NodeError, RCLError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 2 if isinstance(error, ParameterError) else 1
     finally:
-        if node is not None:
+        for node in nodes:
             node.destroy_node()
         rclpy.try_shutdown()
     return 0

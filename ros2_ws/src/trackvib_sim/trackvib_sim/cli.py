@@ -43,14 +43,16 @@ def _law(_context, _parameter, value):
 @click.option("--law", default="passive", show_default=True, callback=_law,
               help=f"Control law: {', '.join(known_laws())}, or package.module:Class.")
 @click.option("--seed", type=click.IntRange(0, 10**9), default=1, show_default=True, help="Seed of the road.")
+@click.option("--one-process", is_flag=True,
+              help="Simulator, road and controller in one process: the same results, sooner.")
 @click.option("--out", type=click.Path(file_okay=False), default=None,
               help="Folder to make for the run.  [default: runs/<time>_<road>_<speed>]")
-def run(road_class, speed, duration, law, seed, out):
+def run(road_class, speed, duration, law, seed, one_process, out):
     """Run the closed loop as four ROS 2 nodes; leaves a bag, a summary and a picture."""
     from .closed_loop_run import Choices, RunError, perform  # imported late: --help need not wait for it
 
     try:
-        perform(Choices(road_class, speed, duration, law, seed), out)
+        perform(Choices(road_class, speed, duration, law, seed, one_process), out)
     except RunError as error:
         click.echo(f"error: {error}", err=True)
         sys.exit(1)

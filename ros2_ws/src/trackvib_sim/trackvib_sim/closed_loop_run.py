@@ -17,9 +17,10 @@ from .analysis.summary import AXES, SENSORS, SHORTEST_MEASURING, TooShort, prepa
 from .bags.reading import read_drive
 from .bags.writing import BagError
 from .installed import closed_loop_parameters
-from .nodes.processes import LoopProcesses
+from .nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses
 from .nodes.road_excitation import PARAMETERS as ROAD_PARAMETERS
 from .nodes.watch import Watch
+from .vehicle.mount_audit import MountEnergy
 
 HIGHEST_DOMAIN = 232  # of ROS 2; beyond it DDS has no ports
 _LOOK = 0.2  # s between looks at processes and progress
@@ -38,6 +39,7 @@ class Choices:
     duration: float
     law: str
     seed: int
+    one_process: bool
 
     @property
     def settling(self):
@@ -121,7 +123,8 @@ def _run_nodes(choices, folder, console):
         "recorder": {"bag": str(folder / "bag")},
         "simulator": {"speed": float(choices.speed), "duration": float(choices.duration)},
     }
-    processes = LoopProcesses(closed_loop_parameters(), overrides, folder / "log")
+    executables = ONE_PROCESS if choices.one_process else FOUR_PROCESSES
+    processes = LoopProcesses(executables, closed_loop_parameters(), overrides, folder / "log")
     interrupted = None
     try:
         _follow(processes, choices.duration, console)
@@ -131,7 +134,7 @@ def _run_nodes(choices, folder, console):
     codes = processes.stop()
     if interrupted is None and any(codes.values()):
         name = next(name for name in (*first, *codes) if codes[name])
-        raise RunError(f"node '{name}' ended with exit code {codes[name]}; it said:\n{processes.last_words(name)}")
+        raise RunError(f"'{name}' ended with exit code {codes[name]}; it said:\n{processes.last_words(name)}")
     return interrupted
 
 
@@ -157,7 +160,9 @@ def _follow(processes, duration, console):
 
 
 def _evaluate(choices, folder, console):
-    drive = read_drive(folder / "bag")
+    # of a run that was reset the last epoch; its bag has the highest number
+    bag = max(folder.glob("bag*"), key=lambda path: (len(path.name), path.name))
+    drive = read_drive(bag)
     prepared = prepare(drive, choices.settling)
     summary = {"run": asdict(choices), **summarise(drive, prepared, choices.settling)}
     (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
@@ -177,8 +182,10 @@ def _print_summary(console, summary, folder):
     for sensor in SENSORS:
         table.add_row(sensor, *(f"{summary['rms_mps2'][sensor][axis]:.3f}" for axis in AXES))
     console.print(table)
-    loop = summary["loop"]
+    loop, mounts = summary["loop"], MountEnergy(**summary["mounts_J"])
     for line in (
+        f"mounts: {mounts.work:.1f} J of work = {mounts.dissipated:.1f} dissipated {mounts.stored:+.1f} stored "
+        f"{mounts.exchanged:+.1f} given to the field by switching; left over {100.0 * mounts.error:.3f} %",
         f"loop: {loop['samples']} samples; lost {loop['lost_chassis']} chassis, {loop['lost_powertrain']} powertrain; "
         f"unanswered {loop['unanswered']}; late {loop['late']}; rejected "
         f"{int(loop['early']) + int(loop['duplicate']) + int(loop['not_finite'])}; saturated {loop['saturated']}",

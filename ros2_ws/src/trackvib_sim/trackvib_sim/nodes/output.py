@@ -39,9 +39,12 @@ class SimulatorOutput:
         self._vehicle_text = vehicle_text
 
     def introduce(self):
-        """Publish what the partners need before the start: the vehicle and where it stands."""
-        self._vehicle_out.publish(String(data=self._vehicle_text))
+        """Publish what the partners need before the start: where the vehicle stands, and what it is.
+
+        The time comes first, for it may tell them that a new run begins.
+        """
         self.publish_odometry()
+        self._vehicle_out.publish(String(data=self._vehicle_text))
 
     def listeners(self):
         """Return how many listen to the Imu of the chassis and of the powertrain."""
@@ -63,6 +66,11 @@ class SimulatorOutput:
         simulation = self._simulation
         odometry = self._odometry.fill(simulation.time, simulation.state.tree, simulation.sample)
         self._odometry_out.publish(odometry)
+        self.publish_clock()
+
+    def publish_clock(self):
+        """Publish the simulated time."""
+        simulation = self._simulation
         self._time.clock.sec, self._time.clock.nanosec = divmod(simulation.time, NANO)
         self._clock_out.publish(self._time)
 

@@ -1,4 +1,4 @@
-"""The four processes of a closed loop: started together, watched, ended in order."""
+"""The processes of a closed loop: started together, watched, ended in order."""
 
 import ctypes
 import json
@@ -9,12 +9,14 @@ from pathlib import Path
 
 from ament_index_python.packages import get_package_prefix
 
-EXECUTABLES = {
+# Packages of the executables, in the order in which they start.
+FOUR_PROCESSES = {
     "road_excitation": "trackvib_sim",
     "controller": "mr_mount_controller",
     "recorder": "trackvib_sim",
     "simulator": "trackvib_sim",
 }
+ONE_PROCESS = {"recorder": "trackvib_sim", "one_process": "trackvib_sim"}  # a recorder that is slow must not hold it
 _GRACE = 10.0  # s for a process to end by itself
 _PR_SET_PDEATHSIG = 1  # Linux: signal to a child whose parent has died
 
@@ -26,15 +28,20 @@ class LoopProcesses:
     that process die, the kernel ends them.
     """
 
-    def __init__(self, parameter_file, overrides, log_folder):
-        """Start all; `overrides` maps names of nodes to parameters, `log_folder` takes what each prints."""
+    def __init__(self, executables, parameter_file, overrides, log_folder):
+        """Start `FOUR_PROCESSES` or `ONE_PROCESS`.
+
+        `overrides` maps names of nodes to parameters, `log_folder` takes what each process prints.
+        """
+        given = []
+        for node, parameters in overrides.items():
+            for parameter, value in parameters.items():
+                given += ["-p", f"{node}:{parameter}:={json.dumps(value)}"]  # JSON is YAML, and quotes what needs it
         self._log_folder = Path(log_folder)
         self._processes = {}
-        for name, package in EXECUTABLES.items():
+        for name, package in executables.items():
             executable = Path(get_package_prefix(package)) / "lib" / package / name
-            command = [str(executable), "--ros-args", "--params-file", str(parameter_file)]
-            for parameter, value in overrides.get(name, {}).items():
-                command += ["-p", f"{parameter}:={json.dumps(value)}"]  # JSON is YAML, and quotes what needs it
+            command = [str(executable), "--ros-args", "--params-file", str(parameter_file), *given]
             with (self._log_folder / f"{name}.log").open("wb") as log:
                 self._processes[name] = subprocess.Popen(
                     command,
@@ -51,8 +58,8 @@ class LoopProcesses:
 
     def stop(self):
         """End what still runs: the simulator first, the recorder last, so that it gets all there is."""
-        order = ("simulator", "controller", "road_excitation", "recorder")
-        for name in order:
+        order = ("simulator", "one_process", "controller", "road_excitation", "recorder")
+        for name in sorted(self._processes, key=order.index):
             process = self._processes[name]
             if process.poll() is None:
                 process.send_signal(signal.SIGINT)

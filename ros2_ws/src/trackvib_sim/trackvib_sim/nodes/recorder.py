@@ -34,10 +34,17 @@ DEFAULT_TOPICS = [
     topics.DIAGNOSTICS,
 ]
 PARAMETERS = (
-    Parameter("bag", "", "Folder of the bag; empty for bag_<date and time> where the node was started."),
+    Parameter(
+        "bag",
+        "",
+        "Folder of the bag; empty for bag_<date and time> where the node was started. Each further epoch goes to one "
+        "of its own, <bag>_epoch_2 and so on.",
+    ),
     Parameter("topics", DEFAULT_TOPICS, "Topics to record; recording starts when all of them are there."),
 )
-_TIMEKEEPERS = ("sensor_msgs/msg/Imu", "rosgraph_msgs/msg/Clock")  # their stamps are the simulation's own time
+# Their stamps are the simulation's own time, and go up by so many ns at least from message to message of one topic. If
+# they do not, the simulation has begun anew.
+_TIMEKEEPERS = {"sensor_msgs/msg/Imu": 1, "rosgraph_msgs/msg/Clock": 0, "nav_msgs/msg/Odometry": 0}
 _DEPTH = 1000  # messages that may wait
 _SERVICE_TIMEOUT = 2.0  # s, for a node to tell its parameters
 _UNKNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's word for it
@@ -48,12 +55,20 @@ _QUIET = 0.2  # s without a message after which nothing more is expected at the 
 
 
 class RecorderNode(LoopNode):
-    """Records raw messages; their time in the bag is the simulated time of their stamp."""
+    """Records raw messages; their time in the bag is the simulated time of their stamp.
+
+    A bag holds one epoch: with time that goes back, its messages would be mixed with those of the run before.
+    """
 
     def __init__(self):
         super().__init__("recorder", PARAMETERS)
         self._wanted = self._resolve(self.settings["topics"])
+        self._path = self.settings["bag"] or f"bag_{datetime.now():%Y%m%dT%H%M%S}"
+        self._epoch = 1
         self._bag = None
+        self._topics = []  # what the bag is told of each
+        self._described = False  # the bag at hand knows what makes its messages
+        self._times = {}  # latest stamp of each timekeeper in this epoch, ns
         self._recorded = self.create_publisher(Time, topics.RECORDED, LATCHED_QOS)
         self._matched = []  # one function a subscription: whether a publisher is connected
         self._latest = 0  # stamp, ns
@@ -61,19 +76,13 @@ class RecorderNode(LoopNode):
 
     def run(self):
         """Make the bag, wait for every topic, write down where it comes from, record until told to stop."""
-        path = self.settings["bag"] or f"bag_{datetime.now():%Y%m%dT%H%M%S}"
-        try:
-            self._bag = BagWriter(path)
-        except BagError as error:
-            raise NodeError(str(error)) from None
+        self._bag = self._new_bag(self._path)
         self.get_logger().info(f"waiting for {', '.join(sorted(self._wanted))}")
         if not self.spin_until(lambda: all(map(self.get_publishers_info_by_topic, self._wanted))):
             return
         # names of nodes come a moment after their publishers; what is not a node never has one
         self.spin_until(lambda: not any(_UNKNOWN in name for name in self._publishing_nodes()), _NAMES_TIMEOUT)
-        self._bag.add_provenance("versions", versions())
-        for name in self._publishing_nodes():
-            self._bag.add_provenance(f"parameters of {name}", self._parameters_of(name))
+        self._describe()
         for topic in sorted(self._wanted):
             self._subscribe(topic)
         self.spin_until(lambda: all(matched() for matched in self._matched))
@@ -82,7 +91,32 @@ class RecorderNode(LoopNode):
         while not self.stopping():
             if self._take_all():
                 self._report()
+            if not self._described:
+                self._describe()
             time.sleep(_REST)
+
+    def _new_bag(self, path):
+        try:
+            return BagWriter(path)
+        except BagError as error:
+            raise NodeError(str(error)) from None
+
+    def _describe(self):
+        """Write down what makes the messages."""
+        self._described = True
+        self._bag.add_provenance("versions", versions())
+        for name in self._publishing_nodes():
+            self._bag.add_provenance(f"parameters of {name}", self._parameters_of(name))
+
+    def _begin_epoch(self):
+        """Complete the bag and begin the next one, with the same topics."""
+        self._complete()
+        self._epoch += 1
+        self._bag = self._new_bag(f"{self._path}_epoch_{self._epoch}")
+        for topic in self._topics:
+            self._bag.add_topic(*topic)
+        self._described, self._times, self._latest = False, {}, 0
+        self.get_logger().info(f"the simulation has begun anew, recording to {self._bag.path}")
 
     def _report(self):
         seconds, nanoseconds = divmod(self._latest, NANO)
@@ -106,6 +140,9 @@ class RecorderNode(LoopNode):
             self.spin_once(_QUIET / 10)
             if self._take_all():
                 last = time.monotonic()
+        self._complete()
+
+    def _complete(self):
         try:
             self._bag.close()
         except OSError as error:
@@ -122,21 +159,28 @@ class RecorderNode(LoopNode):
         if any(offer.reliability == QoSReliabilityPolicy.BEST_EFFORT for offer in offers):
             qos.reliability = QoSReliabilityPolicy.BEST_EFFORT
         type_name = infos[0].topic_type
-        self._bag.add_topic(topic, type_name, [qos_record(offer) for offer in offers], str(infos[0].topic_type_hash))
+        self._topics.append(
+            (topic, type_name, [qos_record(offer) for offer in offers], str(infos[0].topic_type_hash))
+        )
+        self._bag.add_topic(*self._topics[-1])
         package, kind, name = type_name.split("/")
         message_type = getattr(import_module(f"{package}.{kind}"), name)
         first_field = next(iter(message_type.get_fields_and_field_types().values()))
         stamped = first_field in ("std_msgs/Header", "builtin_interfaces/Time")
-        keeps_time = type_name in _TIMEKEEPERS
+        least_step = _TIMEKEEPERS.get(type_name)
         subscription = self.create_subscription(
-            message_type, topic, lambda data: self._on_message(topic, stamped, keeps_time, data), qos, raw=True
+            message_type, topic, lambda data: self._on_message(topic, stamped, least_step, data), qos, raw=True
         )
         self._matched.append(lambda: subscription.get_publisher_count() > 0)
 
-    def _on_message(self, topic, stamped, keeps_time, data):
-        # a stamp of zero is one that nobody filled in
-        stamp = (leading_stamp(data) if stamped else 0) or self._latest
-        if keeps_time:
+    def _on_message(self, topic, stamped, least_step, data):
+        stamp = leading_stamp(data) if stamped else 0
+        if least_step is None or stamp < least_step:
+            stamp = stamp or self._latest  # a stamp of zero is one that nobody filled in
+        else:
+            if stamp < self._times.get(topic, 0) + least_step:
+                self._begin_epoch()
+            self._times[topic] = stamp
             self._latest = max(self._latest, stamp)
         self._write(topic, stamp, data)
         self._received += 1

@@ -27,13 +27,18 @@ class RoadExcitationNode(LoopNode):
     def __init__(self):
         super().__init__("road_excitation", PARAMETERS)
         s = self.settings
-        road = Iso8608Road(s["road_class"], s["seed"], s["level_until"], s["fade"])
-        self._feeder = RoadFeeder(road, s["horizon"])
+        self._road = Iso8608Road(s["road_class"], s["seed"], s["level_until"], s["fade"])
+        self._feeder = RoadFeeder(self._road, s["horizon"])
+        self._last = (0, 0)  # stamp of the latest odometry, s and ns
         self._patches = self.create_publisher(RoadProfile, ROAD_PROFILE, ROAD_QOS)
         self.create_subscription(Odometry, ODOMETRY, self._on_odometry, LATCHED_QOS)
         self.get_logger().info(f"road of class {s['road_class']}, seed {s['seed']}; waiting for a vehicle's odometry")
 
     def _on_odometry(self, odometry):
+        stamp = (odometry.header.stamp.sec, odometry.header.stamp.nanosec)
+        if stamp <= self._last:  # a new run, or a vehicle that asks again because it still has no road
+            self._feeder = RoadFeeder(self._road, self.settings["horizon"])
+        self._last = stamp
         for start, spacing, heights in self._feeder.patches(odometry.pose.pose.position.x):
             patch = RoadProfile(start=start, spacing=spacing, left=heights[0], right=heights[1])
             patch.header.stamp = odometry.header.stamp

@@ -1,5 +1,6 @@
 """The vehicle in motion: holds system, state and road, and advances one control period at a time."""
 
+from copy import deepcopy
 from typing import NamedTuple
 
 import numpy as np
@@ -44,22 +45,27 @@ class Simulation:
     def __init__(self, vehicle, settings, probes=()):
         self.settings = settings
         self.system = build_system(vehicle, settings.operation, 1.0 / settings.rates.physics)
-        self.state = run_in(vehicle, self.system, settings)
-        self.road = RoadStore()
-        self.periods = 0
+        self._initial = run_in(vehicle, self.system, settings)
         mounts = self.system.mounts
         rows = body_rows(vehicle, self.system.tree)
         self.sensors = Sensors(
             np.array([mounts.hull, mounts.powertrain, *(rows[probe.body] for probe in probes)]),
             np.stack((mounts.lower.mean(0), mounts.upper.mean(0), *(probe.place for probe in probes))),
         )
+        reach = max(abs(x) for x in (*vehicle.swing_arms.wheel_x, *vehicle.idlers.x, *vehicle.sprockets.x))
+        self._reach = reach + _MARGIN
+        self.reset()
+
+    def reset(self):
+        """Start anew as if just made: time zero, the state in which every run begins, no road."""
+        self._held = self._statuses = None  # the road that the generator of control periods was made with, and itself
+        self.state = deepcopy(self._initial)
+        self.road = RoadStore()
+        self.periods = 0
         self.sample, self._next = new_sample(self.sensors), new_sample(self.sensors)
         self._work = new_work(self.system)
         self._demanded = np.zeros(2)
-        self._held = self._statuses = None  # the road that the generator of control periods was made with, and itself
         observe(self.system, self.state, self._work.motion, self.sample)
-        reach = max(abs(x) for x in (*vehicle.swing_arms.wheel_x, *vehicle.idlers.x, *vehicle.sprockets.x))
-        self._reach = reach + _MARGIN
 
     @property
     def time(self):

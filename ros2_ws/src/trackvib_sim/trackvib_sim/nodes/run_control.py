@@ -1,0 +1,86 @@
+"""The simulator's state, and the services that change it: pause, resume, single step, reset."""
+
+from std_srvs.srv import Trigger
+
+from ..simulation.settings import NANO
+
+
+class RunControl:
+    """Knows in which state and epoch the run is and what the services ask for.
+
+    A service only notes what is wanted and answers at once; the node does it between two periods. So no caller waits
+    for road, controller or recorder, and every period that has begun is completed with its answer.
+
+    Attributes
+    ----------
+    epoch : int
+        How often the run has begun: 1, and one more with every reset.
+    reset_wanted : bool
+    """
+
+    def __init__(self, node, time):
+        """Offer the services under the node's name; `time()` is the simulated time [ns] of the period at hand."""
+        self.epoch = 1
+        self.reset_wanted = False
+        self._phase = "waiting"
+        self._paused = False
+        self._steps = 0  # still to be done while paused
+        self._time = time
+        self._logger = node.get_logger()
+        for name, service in (
+            ("pause", self._pause),
+            ("resume", self._resume),
+            ("step", self._step),
+            ("reset", self._reset),
+        ):
+            node.create_service(Trigger, f"~/{name}", service)
+
+    @property
+    def state(self):
+        """One of waiting, running, paused, finished, stopped, failed; waiting is for partners or road."""
+        return "paused" if self._paused and self._phase == "running" else self._phase
+
+    @state.setter
+    def state(self, phase):
+        self._phase = phase
+
+    @property
+    def holding(self):
+        """Whether the run is paused and no step is asked for."""
+        return self._paused and self._steps == 0
+
+    def end_period(self):
+        """Note that a period was done."""
+        self._steps = max(self._steps - 1, 0)
+
+    def begin_epoch(self):
+        """Note that the run begins anew; steps that were asked for before are forgotten."""
+        self.epoch += 1
+        self.reset_wanted, self._steps = False, 0
+
+    def _pause(self, _request, response):
+        self._paused = True
+        return self._answer(response, "paused")
+
+    def _resume(self, _request, response):
+        self._paused, self._steps = False, 0
+        return self._answer(response, "resumed")
+
+    def _step(self, _request, response):
+        if not self._paused:
+            response.success, response.message = False, "a run that is not paused takes no single steps"
+            return response
+        self._steps += 1
+        return self._answer(response, "one period further")
+
+    def _reset(self, _request, response):
+        if self._phase == "waiting" and self._time() == 0:
+            response.success, response.message = False, "the run has not begun"
+            return response
+        self.reset_wanted = True
+        return self._answer(response, "reset")
+
+    def _answer(self, response, done):
+        response.success, response.message = True, f"{done} at t = {self._time() / NANO:.3f} s"
+        self._logger.info(response.message)
+        return response

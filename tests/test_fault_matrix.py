@@ -1,0 +1,148 @@
+"""Further faults of the loop, with real processes: the rows of docs/loop.md that test_loop_faults.py leaves."""
+
+import re
+import signal
+import sys
+from pathlib import Path
+
+import pytest
+from trackvib_sim.bags.reading import read_drive
+
+pytestmark = pytest.mark.system
+
+CONTROLLERS = Path(__file__).parent / "controllers"
+PROPER = 2.0  # A, what the unruly controller answers properly
+PASSIVE = 1.0  # A
+
+
+def counted(simulator):
+    """Return what a simulator has counted, by its last line."""
+    return {name: int(n) for n, name in re.findall(r"(\d+) (\w+)", simulator.output.split("answers: ")[1])}
+
+
+@pytest.fixture
+def unruly(start):
+    """Start the unruly controller: `unruly(kind, sample)`."""
+    return lambda *arguments: start([sys.executable, CONTROLLERS / "unruly.py", *arguments])
+
+
+@pytest.mark.parametrize(
+    ("policy", "current", "kind"),
+    [("hold", PROPER, "not_finite"), ("passive", PASSIVE, "late"), ("stop", PROPER, "not_finite")],
+)
+def test_nothing_but_nonsense_is_silence(start_node, unruly, observer, policy, current, kind):
+    """Who answers nothing useful is silent: what then flows, and whether the run goes on, is on_silence's choice."""
+    start_node("road_excitation")
+    unruly(kind, 200)
+    simulator = start_node("simulator", duration=0.5, answer_timeout=0.2, on_silence=policy)
+    code = simulator.wait()
+    if policy == "stop":
+        assert code != 0 and "no answer to the sample at t = 0.200 s" in simulator.output
+    else:
+        assert code == 0, simulator.output
+        assert counted(simulator)["accepted"] == 199 and counted(simulator)["silent_periods"] == 301
+    observer.wait_for(
+        state="failed" if policy == "stop" else "finished", current_left=str(current), current_right=str(current)
+    )
+
+
+def test_answers_out_of_order(start_node, unruly):
+    """An answer that comes behind the next one is late, and changes nothing."""
+    start_node("road_excitation")
+    unruly("out_of_order")
+    simulator = start_node("simulator", duration=0.5)
+    assert simulator.wait() == 0, simulator.output
+    assert counted(simulator)["accepted"] == 500 and counted(simulator)["late"] >= 498
+
+
+def test_a_slow_answer_is_late_and_its_controller_heard_again(start_node, unruly):
+    """One answer beyond the timeout: the last current is held, the answer is late, then the lock-step closes again."""
+    start_node("road_excitation")
+    unruly("slow", 200)
+    simulator = start_node("simulator", duration=0.0, answer_timeout=0.2)
+    simulator.wait_for("no answer to the sample at t = 0.200 s; holding the last current")
+    simulator.wait_for("heard again, waiting for every answer")
+    assert simulator.running
+
+
+def test_two_controllers_at_once(start_node, observer):
+    """Of two answers the first counts, the other is a duplicate or late; both are told."""
+    start_node("road_excitation")
+    for current in (1.5, 2.5):
+        start_node("controller", current=current)
+    simulator = start_node("simulator", duration=1.0)
+    assert simulator.wait() == 0, simulator.output
+    assert "2 nodes answer on coil_current; the first answer counts" in simulator.output
+    counts = counted(simulator)
+    assert counts["accepted"] == 1000
+    # whoever is slower may not even get to see every sample
+    assert 0 < counts.get("duplicate", 0) + counts.get("late", 0) <= 1000
+    assert set(counts) <= {"accepted", "duplicate", "late"}
+    observer.wait_for(state="finished", controllers="2")
+    assert observer.values["current_left"] in ("1.5", "2.5")
+
+
+def test_simulator_killed_and_restarted(start_node, observer, tmp_path):
+    """Road, controller and recorder go on with the new simulator as with the first run of a new one."""
+    recorder = start_node("recorder", bag=tmp_path / "bag")
+    start_node("road_excitation")
+    controller = start_node("controller", law="skyhook", wait_for_recorder=True)
+    simulator = start_node("simulator", wait_for_recorder=True)
+    observer.wait_until(lambda: float(observer.values.get("time", 0.0)) > 0.3)
+    simulator.signal(signal.SIGKILL)
+    again = start_node("simulator", duration=0.5, speed=12.0, wait_for_recorder=True)
+    assert again.wait() == 0, again.output
+    assert counted(again) == {"accepted": 500}
+    assert "the samples start anew: law reset" in controller.output
+    recorder.signal(signal.SIGINT)
+    assert recorder.wait() == 0, recorder.output
+    drive = read_drive(tmp_path / "bag_epoch_2")
+    assert len(drive.chassis.stamp) == len(drive.answered) == 500
+    assert drive.provenance["parameters of /simulator"]["speed"] == "12.0"
+
+
+def test_recorder_killed(start_node, observer, tmp_path):
+    """A run that waits for its recorder gives up on one that was killed, says so once, and goes on."""
+    recorder = start_node("recorder", bag=tmp_path / "bag")
+    start_node("road_excitation")
+    start_node("controller")
+    simulator = start_node("simulator", duration=2.0, wait_for_recorder=True)
+    observer.wait_until(lambda: float(observer.values.get("time", 0.0)) > 0.2)
+    recorder.signal(signal.SIGKILL)
+    assert simulator.wait() == 0, simulator.output
+    assert simulator.output.count("the recorder does not keep up") == 1
+    assert counted(simulator) == {"accepted": 2000}
+
+
+def relayed(name):
+    """Arguments that let a controller's topic go over a relay."""
+    return "--ros-args", "-r", f"{name}:=relayed", "--"
+
+
+def test_dropped_samples(start, start_node):
+    """A sample that a relay drops is not answered: the silence is counted and the controller tells the gap."""
+    start_node("road_excitation")
+    start([sys.executable, CONTROLLERS / "relay.py", "Imu", "powertrain/imu", "relayed", "drop", 0, 200])
+    controller = start_node("controller", *relayed("powertrain/imu"))
+    simulator = start_node("simulator", duration=0.9, answer_timeout=0.2)
+    assert simulator.wait() == 0, simulator.output
+    counts = counted(simulator)
+    assert counts["silent_periods"] >= 4 and counts["accepted"] + counts["silent_periods"] == 900
+    assert "holding the last current" in simulator.output and "heard again" in simulator.output
+    assert "samples 0.00" in controller.output  # apart, longer than the period
+
+
+@pytest.mark.parametrize(("seconds", "silent"), [(0.1, False), (0.6, True)])
+def test_delayed_answers(start, start_node, seconds, silent):
+    """A delay within the timeout changes nothing; beyond it the loop holds the current until it hears an answer."""
+    start_node("road_excitation")
+    start([sys.executable, CONTROLLERS / "relay.py", "CoilCurrent", "relayed", "coil_current", "delay", seconds, 200])
+    start_node("controller", *relayed("coil_current"))
+    simulator = start_node("simulator", duration=0.9, answer_timeout=0.3)
+    assert simulator.wait() == 0, simulator.output
+    counts = counted(simulator)
+    if silent:
+        assert counts["silent_periods"] > 0 and counts["accepted"] + counts["silent_periods"] == 900
+        assert "holding the last current" in simulator.output
+    else:
+        assert counts == {"accepted": 900}
