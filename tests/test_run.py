@@ -17,6 +17,7 @@ from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.closed_loop import run_closed_loop
 from trackvib_sim.simulation.settings import NANO, Rates, RunSettings
 from trackvib_sim.simulation.simulation import Simulation
+from trackvib_sim.vehicle.mount_audit import MountEnergy
 from trackvib_sim.vehicle.system import Operation
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
@@ -141,6 +142,9 @@ def test_summary_and_picture(first):
     assert 0.5 < summary["rms_mps2"]["powertrain"]["z"] < 5.0
     assert f"{summary['rms_mps2']['powertrain']['z']:.3f}" in printed
     assert float(summary["loop"]["real_time_factor"]) > 0.0
+    mounts = MountEnergy(**summary["mounts_J"])
+    assert mounts.dissipated > 0.0 and mounts.exchanged != 0.0 and mounts.error < 1e-3
+    assert f"{mounts.work:.1f} J of work" in printed
     assert (folder / "summary.txt").read_text().strip() in printed.replace("\r", "")
     picture = (folder / "run.png").read_bytes()
     assert picture.startswith(b"\x89PNG") and len(picture) > 50_000

@@ -62,7 +62,7 @@ def changed(vehicle):
 
 @pytest.fixture(scope="session")
 def easy_teeth(changed):
-    """The vehicle with teeth that pins enter freely: for what is about the code, where harsh impacts hide or amplify."""
+    """The vehicle with teeth that pins enter freely: for tests of the code in which harsh impacts amplify or hide."""
     teeth = dict(teeth=16.0, pitch_excess=0.0, flank_angle=19.7, backlash=0.0011, height=0.045, corner_radius=0.02)
     return changed("sprocket_teeth", **teeth, stiffness=1.5e8, damping=1.2e4)
 

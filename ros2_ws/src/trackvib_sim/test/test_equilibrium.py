@@ -113,5 +113,6 @@ def test_new_state_is_all_zero(system):
     """A new state has every coordinate, node and current at zero and the hull upright."""
     state = new_state(system)
     assert state.tree.attitude.tolist() == [[1.0, 0.0, 0.0, 0.0]]
-    for part in (*state.tree[:1], *state.tree[2:], state.tracks.nodes, *state.tracks.tensioner, *state[2:]):
+    alone = (state.tracks.nodes, state.crank_angle, state.speed_integral, state.flight)
+    for part in (*state.tree[:1], *state.tree[2:], *state.tracks.tensioner, *state.coils, *alone, *state.audit):
         assert not part.any()

@@ -47,7 +47,7 @@ def mirror(state, partner, turret):
     sign = np.ones((NODE_STATE, 1))
     sign[list(LATERAL)] = -1
     tracks.nodes[:] = (tracks.nodes.reshape(2, NODE_STATE, STRIDE)[::-1] * sign).reshape(tracks.nodes.shape)
-    for values in (tracks.link, tracks.rear, tracks.passed, *tracks.tensioner, state.currents):
+    for values in (tracks.link, tracks.rear, tracks.passed, *tracks.tensioner, *state.coils):
         values[:] = values[::-1].copy()
 
 

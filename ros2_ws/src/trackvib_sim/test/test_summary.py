@@ -1,10 +1,10 @@
-"""What a summary says of a run: losses, settling, length."""
+"""What a summary says of a run: losses, settling, length, where the work on the mounts went."""
 
 from collections import Counter
 
 import numpy as np
 import pytest
-from trackvib_sim.analysis.summary import TooShort, losses, prepare, settling_time
+from trackvib_sim.analysis.summary import TooShort, losses, mount_energy, prepare, settling_time
 from trackvib_sim.bags.reading import Drive, Inertial
 
 MS = 1_000_000  # ns
@@ -43,3 +43,14 @@ def test_a_short_run_is_refused():
     stamps = list(range(1, 2500))
     with pytest.raises(TooShort, match="2.499 s long, RMS values need 3 s"):
         prepare(drive(stamps, stamps, stamps, 2.499), 2.0)
+
+
+@pytest.mark.property
+def test_work_on_the_mounts_is_what_the_simulator_told():
+    """Its diagnostics are text; what the account leaves over is set against its greatest part."""
+    stamps = list(range(1, 101))
+    parts = {"work": "92.0", "dissipated": "140.0", "stored": "-2.0", "exchanged": "-47.4"}
+    told = {f"mount_{part}_J": energy for part, energy in parts.items()}
+    found = mount_energy(drive(stamps, stamps, stamps, 0.1)._replace(diagnostics=told))
+    assert found.residual == pytest.approx(1.4) and found.error == pytest.approx(0.01)
+    assert found._replace(work=0.0, dissipated=0.0, stored=0.0, exchanged=0.0).error == 0.0

@@ -35,8 +35,9 @@ def test_every_item_of_the_file_is_in_the_table(text):
         assert [row.item for row in found[section]] == list(items)
         for row, item in zip(found[section], items.values(), strict=True):
             assert (row.unit, row.source, row.note) == (item["unit"], item["source"], item.get("note", ""))
-            value = np.array(yaml.safe_load(row.value), dtype=float)
-            assert value == pytest.approx(np.array(item["value"], dtype=float), rel=1e-5)
+            if row.value != item["value"]:  # a number, not a word
+                value = np.array(yaml.safe_load(row.value), dtype=float)
+                assert value == pytest.approx(np.array(item["value"], dtype=float), rel=1e-5)
 
 
 @pytest.mark.property

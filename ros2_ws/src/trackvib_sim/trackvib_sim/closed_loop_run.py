@@ -20,6 +20,7 @@ from .installed import closed_loop_parameters
 from .nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses
 from .nodes.road_excitation import PARAMETERS as ROAD_PARAMETERS
 from .nodes.watch import Watch
+from .vehicle.mount_audit import MountEnergy
 
 HIGHEST_DOMAIN = 232  # of ROS 2; beyond it DDS has no ports
 _LOOK = 0.2  # s between looks at processes and progress
@@ -181,8 +182,10 @@ def _print_summary(console, summary, folder):
     for sensor in SENSORS:
         table.add_row(sensor, *(f"{summary['rms_mps2'][sensor][axis]:.3f}" for axis in AXES))
     console.print(table)
-    loop = summary["loop"]
+    loop, mounts = summary["loop"], MountEnergy(**summary["mounts_J"])
     for line in (
+        f"mounts: {mounts.work:.1f} J of work = {mounts.dissipated:.1f} dissipated {mounts.stored:+.1f} stored "
+        f"{mounts.exchanged:+.1f} given to the field by switching; left over {100.0 * mounts.error:.3f} %",
         f"loop: {loop['samples']} samples; lost {loop['lost_chassis']} chassis, {loop['lost_powertrain']} powertrain; "
         f"unanswered {loop['unanswered']}; late {loop['late']}; rejected "
         f"{int(loop['early']) + int(loop['duplicate']) + int(loop['not_finite'])}; saturated {loop['saturated']}",

@@ -18,7 +18,7 @@ RESOLUTION = 1.0  # Hz
 @pytest.mark.parametrize("speed", [5.0, 10.0, 20.0])
 @pytest.mark.parametrize(("links", "pitch", "teeth"), LINKS[:2])
 def test_links_pass_at_their_frequency(easy_teeth, simulation, links, pitch, teeth, speed):
-    """Where pins enter freely the hull's strongest vertical line within 40 % of v / p lies at v / p, v the mean speed."""
+    """Where pins enter freely the strongest vertical line within 40 % of v / p lies at v / p, v the mean speed."""
     moving = simulation(speed=speed, vehicle=with_links(easy_teeth, links, pitch, teeth), phase=0.3)
     _assert_line_at_link_passing(moving, pitch)
 

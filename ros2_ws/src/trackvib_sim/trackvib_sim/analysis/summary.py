@@ -5,12 +5,14 @@ from typing import NamedTuple
 import numpy as np
 
 from ..simulation.settings import NANO
+from ..vehicle.mount_audit import MountEnergy
 from .vibration import band, band_limited, rms
 
 AXES = ("x", "y", "z")
 SENSORS = ("chassis", "powertrain")
 SHORTEST_SETTLING = 2.0  # s
 SHORTEST_MEASURING = 1.0  # s
+MOUNTS = tuple(f"mount_{part}_J" for part in MountEnergy._fields)  # in the simulator's diagnostics
 VEHICLE_BEHIND = 2.5  # m from the hull's origin to beyond the rear wheels
 
 
@@ -74,6 +76,11 @@ def losses(drive):
     }
 
 
+def mount_energy(drive):
+    """Return where the work on the mounts went, as the simulator told at its end: a `MountEnergy`."""
+    return MountEnergy(*(float(drive.diagnostics[key]) for key in MOUNTS))
+
+
 def summarise(drive, prepared, settle):
     """Return the summary of a run as a dict of plain values, ready for JSON."""
     low, high = band(prepared.rate)
@@ -84,6 +91,7 @@ def summarise(drive, prepared, settle):
             sensor: dict(zip(AXES, rms(prepared.limited[sensor][prepared.settled]).tolist(), strict=True))
             for sensor in SENSORS
         },
-        "loop": {**losses(drive), **drive.diagnostics},
+        "mounts_J": mount_energy(drive)._asdict(),
+        "loop": {**losses(drive), **{key: told for key, told in drive.diagnostics.items() if key not in MOUNTS}},
         "messages": dict(sorted(drive.counts.items())),
     }

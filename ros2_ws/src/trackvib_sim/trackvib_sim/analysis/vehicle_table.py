@@ -122,11 +122,14 @@ def _markdown(kind, rows):
 
 
 def _words(value):
-    """A number, or a list of numbers or lists, to six digits."""
+    """A word as it is; a number, or a list of numbers or lists, to six digits."""
     if isinstance(value, list):
         return f"[{', '.join(_words(each) for each in value)}]"
-    # YAML takes 4.0e7 for a text
-    return re.sub(r"e\+?(-?)0*", r"e\1", f"{float(value):.6g}")
+    try:
+        number = float(value)  # YAML takes 4.0e7 for a text
+    except ValueError:
+        return value
+    return re.sub(r"e\+?(-?)0*", r"e\1", f"{number:.6g}")
 
 
 def main():

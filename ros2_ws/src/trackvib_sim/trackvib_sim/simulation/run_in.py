@@ -3,6 +3,8 @@
 import numpy as np
 
 from ..road.store import Road
+from ..vehicle.coil import settle_coils
+from ..vehicle.mount_audit import open_audit
 from ..vehicle.system import new_state, new_work
 from ..vehicle.tracks.initial import lay_tracks
 from ..vehicle.tracks.nodes import PLACE, STRIDE
@@ -26,18 +28,20 @@ def run_in(vehicle, system, settings):
         The state leaves what the model can describe.
     """
     state, work = new_state(system), new_work(system)
-    state.currents[:] = settings.passive_current
+    settle_coils(system.coil, state.coils, settings.passive_current)
     speed = settings.operation.speed
     lay_tracks(vehicle, system, state, speed, settings.operation.track_phase)
     samples = int((2.0 * _BEHIND + 1.5 * DURATION * speed) / _SPACING) + 2
     road = Road(int(-_BEHIND / _SPACING), _SPACING, np.zeros((2, samples)))
     sensors = Sensors(np.zeros(0, int), np.zeros((0, 3)))
     steps = round(DURATION / system.dt)
-    status = advance(system, state, road, state.currents.copy(), steps, work, sensors, new_sample(sensors))
+    demanded = np.full(2, settings.passive_current)
+    status = advance(system, state, road, demanded, steps, work, sensors, new_sample(sensors))
     if status != GOOD:
         raise CannotRoll(
             f"the vehicle cannot roll at {speed:g} m/s on a level road: {REASONS[status]}; check the vehicle file"
         )
+    open_audit(state.audit)
     return _back_at_start(state)
 
 

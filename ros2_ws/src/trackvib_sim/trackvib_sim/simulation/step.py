@@ -22,6 +22,7 @@ from ..vehicle.coil import drive_coils
 from ..vehicle.driver import add_driver
 from ..vehicle.engine import add_engine, imposed_displacement
 from ..vehicle.hinge_springs import add_hinge_springs
+from ..vehicle.mount_audit import audit_mounts
 from ..vehicle.mr_mounts import MountSample, add_mounts, new_mount_sample, observe_mounts
 from ..vehicle.suspension import add_suspension
 from ..vehicle.tracks.tracks import add_tracks, move_tracks, track_skips, wheel_below_road
@@ -76,7 +77,8 @@ def add_forces(system, state, road, work):
     open_cuts(tree, motion, work.torques, cuts)
     add_tracks(system.tracks, state.tracks, state.tree, road, motion, cuts, work.tracks, system.dt)
     displacement, displacement_rate = imposed_displacement(system.engine, state.crank_angle[0])
-    add_mounts(system.mounts, motion, cuts, state.currents, displacement, displacement_rate)
+    add_mounts(system.mounts, motion, cuts, state.coils.field, displacement, displacement_rate)
+    audit_mounts(system.mounts, motion, state.coils.field, displacement, displacement_rate, system.dt, state.audit)
     add_engine(system.engine, state.crank_angle[0], motion, cuts)
     add_driver(system.driver, motion, cuts, state.speed_integral, system.dt)
 
@@ -130,7 +132,7 @@ def advance(system, state, road, demanded, steps, work, sensors, sample):
     sample.specific_force[:] = 0.0
     sample.rate[:] = 0.0
     for _ in range(steps):
-        drive_coils(system.coil, demanded, state.currents)
+        drive_coils(system.coil, demanded, state.coils)
         add_forces(system, state, road, work)
         solve_accelerations(system.tree, work.motion, work.cuts, work.response)
         status = end_step(system, state, road, work, sensors, sample, 1.0 / steps)
@@ -180,4 +182,4 @@ def observe(system, state, motion, sample):
     store3(sample.hull_velocity, 0, body_axes(motion, hull, motion_vector(motion, VELOCITY, hull)))
     store3(sample.hull_rate, 0, body_axes(motion, hull, motion_vector(motion, RATE, hull)))
     displacement, displacement_rate = imposed_displacement(system.engine, state.crank_angle[0])
-    observe_mounts(system.mounts, motion, state.currents, displacement, displacement_rate, sample.mounts)
+    observe_mounts(system.mounts, motion, state.coils, displacement, displacement_rate, sample.mounts)

@@ -46,7 +46,7 @@ class PinocchioSimulation(Simulation):
         steps = self.settings.rates.steps
         self._next.specific_force[:] = self._next.rate[:] = 0.0
         for _ in range(steps):
-            drive_coils(system.coil, demanded, state.currents)
+            drive_coils(system.coil, demanded, state.coils)
             add_forces(system, state, road, work)
             self._solve()
             status = end_step(system, state, road, work, self.sensors, self._next, 1.0 / steps)

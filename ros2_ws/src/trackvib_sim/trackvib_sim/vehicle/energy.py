@@ -24,7 +24,7 @@ from ..rui.tree import FOOT_SHARE, INERTIA, MASS, MASS_MOMENT, SHARE
 from .driver import add_driver
 from .engine import add_engine, imposed_displacement
 from .hinge_springs import add_hinge_springs
-from .mr_mounts import mount_characteristics, mount_deflection, mount_force
+from .mr_mounts import mount_deflection, mount_energy, mount_force
 from .suspension import add_suspension
 from .system import new_state, new_work
 from .tracks.nodes import SHEAR, STRIDE
@@ -188,13 +188,10 @@ def _add_mounts(system, state, motion, account):
     mounts = system.mounts
     imposed, imposed_rate = imposed_displacement(system.engine, state.crank_angle[0])
     for index in range(2):
-        current = state.currents[index]
+        current = state.coils.field[index]
         _, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)
         force, heat = mount_force(mounts, current, l, l_d)
-        k, _ = mount_characteristics(mounts, current)
-        for axis in range(3):
-            account.stored[MOUNTS] += 0.5 * k * mounts.stiffness_ratio[axis] * l[axis] * l[axis]
-        account.stored[MOUNTS] -= mounts.static_load * l[2]
+        account.stored[MOUNTS] += mount_energy(mounts, current, l)
         account.heat[MOUNTS] += heat
         account.given[ENGINE] += force[2] * imposed_rate
 

@@ -9,6 +9,7 @@ from ..rui.compiled import kernel
 from ..rui.cuts import open_cuts
 from ..rui.kinematics import update_motion
 from ..rui.riccati import HINGE, LINEAR, RESPONSE, solve_accelerations
+from .coil import settle_coils
 from .hinge_springs import add_hinge_springs
 from .mr_mounts import add_mounts
 from .supports import add_supports
@@ -30,7 +31,7 @@ def _static_accelerations(system, state, work):
     add_suspension(system.suspension, state.tree, work.torques)
     update_motion(system.tree, state.tree, work.motion)
     open_cuts(system.tree, work.motion, work.torques, work.cuts)
-    add_mounts(system.mounts, work.motion, work.cuts, state.currents, 0.0, 0.0)
+    add_mounts(system.mounts, work.motion, work.cuts, state.coils.field, 0.0, 0.0)
     add_supports(system.supports, work.motion, work.cuts)
     solve_accelerations(system.tree, work.motion, work.cuts, work.response)
 
@@ -47,7 +48,7 @@ def static_equilibrium(system, current):
         The accelerations cannot be brought below `TOLERANCE`.
     """
     state, work = new_state(system), new_work(system)
-    state.currents[:] = current
+    settle_coils(system.coil, state.coils, current)
     springs = system.springs
     sprung = np.union1d(springs.row[springs.stiffness > 0.0], system.mounts.powertrain)
     held = np.concatenate((sprung, system.suspension.row))

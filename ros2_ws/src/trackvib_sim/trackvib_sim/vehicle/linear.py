@@ -10,7 +10,7 @@ from ..rui.tree import new_rows, to_table
 from .body_tree import STATIONS, body_table
 from .equilibrium import static_equilibrium
 from .hinge_springs import add_hinge_springs
-from .mr_mounts import mount_characteristics, mount_deflection, mount_force
+from .mr_mounts import mount_axes, mount_deflection, mount_force
 from .supports import pulls
 from .suspension import add_suspension
 from .system import new_work
@@ -54,12 +54,11 @@ def linear_vehicle(vehicle, system, current):
 
 def _mounts(system, motion, current):
     mounts = system.mounts
-    k, c = mount_characteristics(mounts, current)
+    k, c = (np.diag(along) for along in mount_axes(mounts, current))
     for index in range(2):
         _, deflection, _ = mount_deflection(mounts, motion, index, 0.0, 0.0)
         force, _ = mount_force(mounts, current, deflection, (0.0, 0.0, 0.0))
-        k_axes, c_axes = np.diag(k * mounts.stiffness_ratio), np.diag(c * mounts.damping_ratio)
-        yield Mount("powertrain", mounts.upper[index], k_axes, c_axes, np.array(force))
+        yield Mount("powertrain", mounts.upper[index], k, c, np.array(force))
 
 
 def _ground(system, bodies, motion):

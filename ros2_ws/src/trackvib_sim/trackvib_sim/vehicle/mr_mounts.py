@@ -12,7 +12,7 @@ import numpy as np
 from ..rui.compiled import kernel
 from ..rui.cuts import apply_force
 from ..rui.kinematics import body_axes, point_place, point_velocity, rotation
-from ..rui.spatial import load3, rotate, scale, store3, subtract
+from ..rui.spatial import load3, rotate, scale, store3, subtract, vector
 
 KN_PER_MM = 1e6  # N/m
 
@@ -35,7 +35,7 @@ class MrMounts(NamedTuple):
 
 
 class MountSample(NamedTuple):
-    """State of both mounts at one instant, vectors in hull axes."""
+    """State of both mounts at one instant, vectors in hull axes; k and c are those of the field."""
 
     current: np.ndarray  # (2,) in the coil, A
     stiffness: np.ndarray  # (2,) vertical, N/m
@@ -86,6 +86,13 @@ def mount_characteristics(mounts, current):
 
 
 @kernel
+def mount_axes(mounts, current):
+    """Return stiffness [N/m] and damping [N s/m] of one mount along x, y and z of the hull."""
+    k, c = mount_characteristics(mounts, current)
+    return scale(k, vector(mounts.stiffness_ratio)), scale(c, vector(mounts.damping_ratio))
+
+
+@kernel
 def mount_deflection(mounts, motion, index, imposed, imposed_rate):
     """Return upper place (global), deflection l and its rate l_d in hull axes [Tao2025, hinge 8].
 
@@ -116,6 +123,13 @@ def mount_force(mounts, current, l, l_d):
 
 
 @kernel
+def mount_energy(mounts, current, l):
+    """Return the energy [J] that one mount stores, its preload included; zero at its unloaded place."""
+    k, _ = mount_axes(mounts, current)
+    return 0.5 * (k[0] * l[0] ** 2 + k[1] * l[1] ** 2 + k[2] * l[2] ** 2) - mounts.static_load * l[2]
+
+
+@kernel
 def add_mounts(mounts, motion, cuts, currents, imposed, imposed_rate):
     """Add the mounts' forces to powertrain and hull; `imposed` as in `mount_deflection`."""
     for index in range(2):
@@ -127,13 +141,13 @@ def add_mounts(mounts, motion, cuts, currents, imposed, imposed_rate):
 
 
 @kernel
-def observe_mounts(mounts, motion, currents, imposed, imposed_rate, sample):
-    """Fill a `MountSample`."""
+def observe_mounts(mounts, motion, coils, imposed, imposed_rate, sample):
+    """Fill a `MountSample`, given the `coil.CoilState`."""
     for index in range(2):
         _, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)
-        k, c = mount_characteristics(mounts, currents[index])
-        force, power = mount_force(mounts, currents[index], l, l_d)
-        sample.current[index], sample.stiffness[index], sample.damping[index] = currents[index], k, c
+        k, c = mount_characteristics(mounts, coils.field[index])
+        force, power = mount_force(mounts, coils.field[index], l, l_d)
+        sample.current[index], sample.stiffness[index], sample.damping[index] = coils.current[index], k, c
         store3(sample.deflection, index, l)
         store3(sample.velocity, index, l_d)
         store3(sample.force, index, force)

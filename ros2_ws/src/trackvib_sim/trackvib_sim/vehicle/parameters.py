@@ -3,7 +3,7 @@
 import numpy as np
 from pydantic import model_validator
 
-from .quantities import scalar, vector, vectors
+from .quantities import choice, scalar, vector, vectors
 from .running_gear_parameters import (
     Ground,
     HullWheels,
@@ -59,8 +59,26 @@ class MrMounts(Section):
 class Coil(Section):
     """Driver and coil of one mount."""
 
-    time_constant: scalar("s", gt=0.0)
+    model: choice("lag", "current_loop")
     current_limits: Range("A")
+    slew_rate: Gain("A/s")
+    delay: scalar("s", ge=0.0, le=1.0)
+    time_constant: scalar("s", gt=0.0)
+    loop_time_constant: scalar("s", gt=0.0)
+    voltage_limits: vector("V", 2)
+    resistance: scalar("ohm", gt=0.0)
+    inductance: scalar("H", gt=0.0)
+    eddy_time_constant: Gain("s")
+
+    @model_validator(mode="after")
+    def _voltage_for_every_current(self):
+        needed = [self.resistance * current for current in self.current_limits]
+        if not (self.voltage_limits[0] <= needed[0] and needed[1] <= self.voltage_limits[1]):
+            raise ValueError(
+                f"voltage_limits are {self.voltage_limits} V, must hold {needed[0]:g} to {needed[1]:g} V, "
+                "resistance times current_limits"
+            )
+        return self
 
 
 class Engine(Section):

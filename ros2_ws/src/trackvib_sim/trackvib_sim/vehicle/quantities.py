@@ -1,6 +1,6 @@
 """Quantities of a vehicle file: each carries value, unit and source, and is checked before its plain value is used."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field
 
@@ -20,27 +20,39 @@ def _plain(unit):
             raise ValueError(f"source is {quantity['source']!r}, must be one of {', '.join(SOURCES)}")
         if quantity["source"] == "literature" and not quantity.get("note"):
             raise ValueError("source is 'literature', so a note must name it")
-        value = quantity["value"]
-        if any(isinstance(each, bool) for each in (value if isinstance(value, list) else [value])):
-            raise ValueError(f"value is {value!r}, must be a number")
-        return value
+        return quantity["value"]
 
     return BeforeValidator(check)
 
 
+def _no_truth(value):
+    """Refuse truth values, of which pydantic would make numbers."""
+    if any(isinstance(each, bool) for each in (value if isinstance(value, list) else [value])):
+        raise ValueError(f"value is {value!r}, must be a number")
+    return value
+
+
+_NUMBERS = BeforeValidator(_no_truth)
+
+
 def scalar(unit, **limits):
     """Return the type of a finite number in `unit` within pydantic's `limits` (gt, ge, lt, le)."""
-    return Annotated[float, Field(allow_inf_nan=False, **limits), _plain(unit)]
+    return Annotated[float, Field(allow_inf_nan=False, **limits), _NUMBERS, _plain(unit)]
 
 
 def vector(unit, length=None, **limits):
     """Return the type of a list of finite numbers in `unit`, of a fixed length if one is given."""
     element = Annotated[float, Field(allow_inf_nan=False, **limits)]
-    return Annotated[list[element], Field(min_length=length or 1, max_length=length), _plain(unit)]
+    return Annotated[list[element], Field(min_length=length or 1, max_length=length), _NUMBERS, _plain(unit)]
 
 
 def vectors(unit, length):
     """Return the type of a list of vectors of `length` numbers in `unit`."""
     element = Annotated[float, Field(allow_inf_nan=False)]
     row = Annotated[list[element], Field(min_length=length, max_length=length)]
-    return Annotated[list[row], Field(min_length=1), _plain(unit)]
+    return Annotated[list[row], Field(min_length=1), _NUMBERS, _plain(unit)]
+
+
+def choice(*words):
+    """Return the type of one of some words; its unit is "-"."""
+    return Annotated[Literal[words], _plain("-")]

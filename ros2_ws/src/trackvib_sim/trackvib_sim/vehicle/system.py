@@ -11,10 +11,11 @@ from ..rui.riccati import Response, new_response
 from ..rui.state import TreeState
 from ..rui.tree import Tree, build_tree, new_rows, rest_lanes
 from .body_tree import GRAVITY, body_table
-from .coil import Coil, coil
+from .coil import Coil, CoilState, coil, new_coil_state
 from .driver import Driver, driver
 from .engine import Engine, engine
 from .hinge_springs import HingeSprings, hinge_springs
+from .mount_audit import MountAudit, new_audit
 from .mr_mounts import MrMounts, mr_mounts
 from .supports import Supports, supports
 from .suspension import Suspension, suspension
@@ -53,10 +54,11 @@ class State(NamedTuple):
 
     tree: TreeState
     tracks: TrackState
-    currents: np.ndarray  # (2,) in the coils, A
+    coils: CoilState
     crank_angle: np.ndarray  # (1,) rad, within one cycle of all orders
     speed_integral: np.ndarray  # (1,) N
     flight: np.ndarray  # (1,) time since a shoe last touched the ground, s
+    audit: MountAudit
 
 
 class Work(NamedTuple):
@@ -70,7 +72,15 @@ class Work(NamedTuple):
 
 
 def build_system(vehicle, operation, dt):
-    """Return the `System` of a vehicle (`parameters.Vehicle`) in an operation, for physics steps of dt [s]."""
+    """Return the `System` of a vehicle (`parameters.Vehicle`) in an operation, for physics steps of dt [s].
+
+    Raises
+    ------
+    tracks.layout.TrackDoesNotFit
+        The links do not close round the running gear.
+    ValueError
+        The coils' delay is no whole number of steps.
+    """
     table = body_table(vehicle)
     tree = build_tree(table, gravity=(0.0, 0.0, -GRAVITY))
     rows = body_rows(vehicle, tree)
@@ -103,10 +113,11 @@ def new_state(system):
     return State(
         tree=rest_lanes(system.tree),
         tracks=new_track_state(system.tracks),
-        currents=np.zeros(2),
+        coils=new_coil_state(system.coil),
         crank_angle=np.zeros(1),
         speed_integral=np.zeros(1),
         flight=np.zeros(1),
+        audit=new_audit(),
     )
 
 

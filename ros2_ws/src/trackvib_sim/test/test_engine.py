@@ -1,50 +1,11 @@
-"""Driver and coil as a first-order lag; the engine's orders and the paper's imposed displacement."""
+"""The engine's orders and the paper's imposed displacement."""
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from trackvib_sim.rui.cuts import new_cuts
 from trackvib_sim.rui.kinematics import rotation
-from trackvib_sim.vehicle.coil import coil, drive_coils, usable_current
 from trackvib_sim.vehicle.engine import add_engine, engine, imposed_displacement
-
-
-@pytest.mark.analytic
-@given(
-    dt=st.floats(1e-6, 0.1),
-    steps=st.integers(1, 50),
-    start=st.floats(0.0, 5.0),
-    demands=st.tuples(st.floats(-10.0, 10.0), st.floats(-10.0, 10.0)),
-)
-def test_coil_is_an_exact_first_order_lag(vehicle, dt, steps, start, demands):
-    """After any number of steps of any length both coils are where the closed form has them."""
-    currents = np.full(2, start)
-    for _ in range(steps):
-        drive_coils(coil(vehicle, dt), np.array(demands), currents)
-    target = np.clip(demands, *vehicle.coil.current_limits)
-    expected = target + (start - target) * np.exp(-steps * dt / vehicle.coil.time_constant)
-    assert_allclose(currents, expected, rtol=1e-13, atol=1e-13)
-
-
-@pytest.mark.property
-@given(demand=st.floats(-1e6, 1e6), start=st.floats(0.0, 5.0))
-def test_coil_never_leaves_the_drivers_limits(vehicle, demand, start):
-    """A current within the limits stays there whatever is demanded, and moves towards the demand."""
-    currents = np.full(2, start)
-    drive_coils(coil(vehicle, 1e-3), np.full(2, demand), currents)
-    lowest, highest = vehicle.coil.current_limits
-    assert lowest <= currents.min() and currents.max() <= highest
-    # by rounding alone it may end a last bit beyond
-    assert min(start, demand) - 1e-12 <= currents[0] <= max(start, demand) + 1e-12
-
-
-@pytest.mark.property
-def test_usable_current_is_what_nobody_cuts(changed, vehicle):
-    """The usable range is where the driver's limits and the fits' range overlap."""
-    assert usable_current(vehicle).tolist() == [0.7, 4.0]
-    assert usable_current(changed("coil", current_limits=[1.0, 2.0])).tolist() == [1.0, 2.0]
 
 
 @pytest.fixture(scope="module")
