@@ -19,7 +19,7 @@ from .parameters import ParameterError
 # holds more, so that a recorder which is slow for a moment still gets everything.
 LOOP_QOS = QoSProfile(depth=10)
 LOOP_WRITER_QOS = QoSProfile(depth=1000)
-LATCHED_QOS = QoSProfile(depth=10, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
+LATCHED_QOS = QoSProfile(depth=50, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
 
 # rclpy declares these itself on every node
 _RCLPY_PARAMETERS = ("use_sim_time", "start_type_description_service", "qos_overrides")

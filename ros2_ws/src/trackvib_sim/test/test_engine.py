@@ -5,7 +5,15 @@ import pytest
 from numpy.testing import assert_allclose
 from trackvib_sim.rui.cuts import new_cuts
 from trackvib_sim.rui.kinematics import rotation
-from trackvib_sim.vehicle.engine import add_engine, engine, imposed_displacement
+from trackvib_sim.vehicle.engine import (
+    RunUp,
+    add_engine,
+    angle_before,
+    engine,
+    imposed_displacement,
+    speed_growth,
+    turn_crank,
+)
 
 
 @pytest.fixture(scope="module")
@@ -70,6 +78,49 @@ def test_standing_engine_is_silent(vehicle, rows, system, random_motion, imposed
     add_engine(record, 1.0, random_motion(1), cuts)
     assert not cuts.cells.any()
     assert imposed_displacement(record, 1.0) == (0.0, 0.0)
+
+
+@pytest.mark.analytic
+def test_run_up_turns_the_crank_by_its_integral(vehicle, rows):
+    """Constant speed, then from 450 to 2100 r/min at 75 r/min a second, then constant, to 1e-9 of the angle."""
+    record, dt = engine(vehicle, rows, 450.0, False, RunUp(0.0, 75.0, 2100.0)), 1e-4
+    angle, crank = angle_before(record, 1.0), np.pi / 30.0
+    for step in range(250_000):
+        angle = turn_crank(record, angle, dt)
+        if step % 10_000 == 9_999:
+            time = (step + 1) * dt - 1.0
+            rising, after = min(max(time, 0.0), 22.0), max(time - 22.0, 0.0)
+            expected = 450.0 * min(time, 22.0) + 0.5 * 75.0 * rising**2 + 2100.0 * after
+            assert angle == pytest.approx(crank * expected, rel=1e-9, abs=1e-6)
+            assert np.sqrt(speed_growth(record, angle)) * 450.0 == pytest.approx(450.0 + 75.0 * rising, rel=1e-9)
+
+
+@pytest.mark.analytic
+@pytest.mark.parametrize("speed", [450.0, 900.0, 2100.0])
+def test_forces_of_a_run_up_are_those_of_its_speed(vehicle, rows, system, random_motion, added, speed):
+    """Where it has reached a speed, the loads are those of an engine that runs at that speed, at the same angle."""
+    record, steady = engine(vehicle, rows, 450.0, False, RunUp(0.0, 75.0, 2100.0)), engine(vehicle, rows, speed, False)
+    angle = 2.0 * np.pi * (speed**2 - 450.0**2) / (2.0 * 75.0 * 60.0) + 1e-9
+    loads = []
+    for each in (record, steady):
+        cuts = new_cuts(system.tree)
+        add_engine(each, angle, random_motion(1), cuts)
+        loads.append(added(cuts))
+    for ours, theirs in zip(*loads, strict=True):
+        assert_allclose(ours, theirs, rtol=1e-9, atol=1e-9)
+    assert loads[0].force.any()
+    imposed = engine(vehicle, rows, 450.0, True, RunUp(0.0, 75.0, 2100.0)), engine(vehicle, rows, speed, True)
+    assert_allclose(*(imposed_displacement(each, angle) for each in imposed), rtol=1e-9)
+
+
+@pytest.mark.property
+def test_engine_without_run_up_stays_within_a_cycle(vehicle, rows):
+    """The angle of a constant speed is kept within two revolutions, and its forces do not grow."""
+    record, angle = engine(vehicle, rows, 1650.0, False), 0.0
+    for _ in range(1000):
+        angle = turn_crank(record, angle, 1e-4)
+        assert 0.0 <= angle < 4.0 * np.pi and speed_growth(record, angle) == 1.0
+    assert angle == pytest.approx(0.1 * 1650.0 * np.pi / 30.0 % (4.0 * np.pi))
 
 
 @pytest.mark.literature

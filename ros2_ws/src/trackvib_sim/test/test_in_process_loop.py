@@ -73,13 +73,13 @@ def test_stamps_are_exact(reference):
 
 
 @pytest.mark.analytic
-def test_sensors_are_those_of_an_inertial_navigator(simulation, rough):
+def test_sensors_are_those_of_an_inertial_navigator(simulation, rough, easy_teeth):
     """From the first state on, integrating the sensors' readings gives attitude and velocity of their points.
 
     Over a period of 1 ms the readings are means; taking force and attitude as constant costs half a period of their
     change, some 1e-3 rad/s * 0.5 ms of g at most, 1e-5 rad and 1e-3 m/s within a second.
     """
-    moving = simulation(10.0, 1650.0)
+    moving = simulation(10.0, 1650.0, vehicle=easy_teeth)
     for start in range(0, 1000, 100):
         moving.road.add(0.05 * (start - 400), 0.05, *rough.heights(start - 400, 100))
     motion = new_motion(moving.system.tree)

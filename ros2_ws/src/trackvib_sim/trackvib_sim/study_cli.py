@@ -8,10 +8,12 @@ import click
 from .option_types import FiniteRange, Several
 from .road.iso8608 import CLASSES
 
+SCENARIOS = ("e10", "c20", "run_up", "bump")  # those of studies.controlled, which takes long to import
+
 
 @click.group()
 def study():
-    """Many runs of the whole vehicle, set beside published results."""
+    """Many runs of the whole vehicle, set beside published results or each other."""
 
 
 @contextmanager
@@ -61,6 +63,27 @@ def figures(scheduler, out):
         from .studies.figures import perform  # imported late, as above
 
         perform(out, scheduler)
+
+
+@study.command()
+@click.option("--laws", type=Several(click.STRING), default=None, metavar="LAW,LAW,...",
+              help="Names of control laws, or package.module:Class.  [default: all that are installed]")
+@click.option("--scenarios", type=Several(click.Choice(list(SCENARIOS))), default=",".join(SCENARIOS),
+              show_default=True, metavar="NAME,NAME,...", help="What the vehicle does.")
+@click.option("--seeds", type=click.IntRange(1, 1000), default=3, show_default=True,
+              help="Runs a law and scenario that varies, each with its own road and track phase.")
+@click.option("--vehicle", type=click.Path(dir_okay=False), default=None,
+              help="Vehicle file.  [default: the one that comes with the package]")
+@click.option("--scheduler", default=None, metavar="ADDRESS",
+              help="Dask scheduler whose workers do it.  [default: all cores of this machine]")
+@click.option("--out", type=click.Path(file_okay=False), default="controllers", show_default=True,
+              help="Folder of the study; finished runs in it are not done again.")
+def controllers(laws, scenarios, seeds, vehicle, scheduler, out):
+    """Every control law on roads, in an engine run-up and over a bump, beside constant currents."""
+    with _ends_in_one_line(out):
+        from .studies.controllers import perform  # imported late, as above
+
+        perform(laws, scenarios, seeds, vehicle, scheduler, out)
 
 
 @study.command()

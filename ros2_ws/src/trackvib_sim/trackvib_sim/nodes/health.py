@@ -12,7 +12,6 @@ def health(control, simulation, exchange, phases, silent, controllers):
     """
     level = "warning" if silent or exchange.counts["saturated"] or controllers > 1 else "ok"
     simulated = simulation.time / NANO
-    mounts = mount_account(simulation.state.audit)
     left, right = exchange.currents.tolist()
     return "error" if control.state == "failed" else level, {
         "state": control.state,
@@ -23,7 +22,7 @@ def health(control, simulation, exchange, phases, silent, controllers):
         "current_right": right,
         "real_time_factor": round(phases.factor(simulated), 3),
         **exchange.counts,
-        **{f"mount_{part}_J": energy for part, energy in mounts._asdict().items()},
+        **{f"mount_{part}_J": energy for part, energy in mount_account(simulation.state.audit)._asdict().items()},
         **{f"{phase}_us_per_period": cost for phase, cost in phases.costs().items()},
     }
 

@@ -18,6 +18,9 @@ class Record(NamedTuple):
     specific_force: np.ndarray  # (k, 2, 3) m/s^2, chassis and powertrain
     rate: np.ndarray  # (k, 2, 3) rad/s
     current: np.ndarray  # (k, 2) demanded in answer to the row's sample, A
+    coil_current: np.ndarray  # (k, 2) at the end of the period, A
+    deflection: np.ndarray  # (k, 2, 3) of the mounts at the end of the period, hull axes, m
+    force: np.ndarray  # (k, 2, 3) of the mounts on the powertrain at the same time, hull axes, N
 
 
 def run_closed_loop(simulation, road, law, periods):
@@ -33,9 +36,8 @@ def run_closed_loop(simulation, road, law, periods):
     feeder = RoadFeeder(road, HORIZON)
     settings = simulation.settings
     exchange = Exchange(settings.passive_current, (-np.inf, np.inf))
-    record = Record(
-        np.zeros(periods, dtype=np.int64), np.zeros((periods, 2, 3)), np.zeros((periods, 2, 3)), np.zeros((periods, 2))
-    )
+    shapes = ((2, 3), (2, 3), (2,), (2,), (2, 3), (2, 3))
+    record = Record(np.zeros(periods, dtype=np.int64), *(np.zeros((periods, *shape)) for shape in shapes))
     for k in range(periods):
         for start, spacing, heights in feeder.patches(simulation.distance):
             simulation.road.add(start, spacing, *heights)
@@ -53,4 +55,6 @@ def run_closed_loop(simulation, road, law, periods):
         record.stamp[k] = simulation.time
         record.specific_force[k], record.rate[k] = force[: POWERTRAIN + 1], rate[: POWERTRAIN + 1]
         record.current[k] = exchange.currents
+        mounts = simulation.sample.mounts
+        record.coil_current[k], record.deflection[k], record.force[k] = mounts.current, mounts.deflection, mounts.force
     return record

@@ -4,6 +4,7 @@ import numpy as np
 
 from ..road.store import Road
 from ..vehicle.coil import settle_coils
+from ..vehicle.engine import angle_before
 from ..vehicle.mount_audit import open_audit
 from ..vehicle.system import new_state, new_work
 from ..vehicle.tracks.initial import lay_tracks
@@ -29,7 +30,9 @@ def run_in(vehicle, system, settings):
     """
     state, work = new_state(system), new_work(system)
     settle_coils(system.coil, state.coils, settings.passive_current)
-    speed = settings.operation.speed
+    speed, run_up = settings.operation.speed, settings.operation.run_up
+    if run_up:
+        state.crank_angle[0] = angle_before(system.engine, DURATION + run_up.begin)
     lay_tracks(vehicle, system, state, speed, settings.operation.track_phase)
     samples = int((2.0 * _BEHIND + 1.5 * DURATION * speed) / _SPACING) + 2
     road = Road(int(-_BEHIND / _SPACING), _SPACING, np.zeros((2, samples)))

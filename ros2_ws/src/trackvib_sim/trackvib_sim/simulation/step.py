@@ -20,7 +20,7 @@ from ..rui.riccati import point_specific_force, solve_accelerations
 from ..rui.spatial import load3, store3
 from ..vehicle.coil import drive_coils
 from ..vehicle.driver import add_driver
-from ..vehicle.engine import add_engine, imposed_displacement
+from ..vehicle.engine import add_engine, imposed_displacement, turn_crank
 from ..vehicle.hinge_springs import add_hinge_springs
 from ..vehicle.mount_audit import audit_mounts
 from ..vehicle.mr_mounts import MountSample, add_mounts, new_mount_sample, observe_mounts
@@ -105,7 +105,7 @@ def end_step(system, state, road, work, sensors, sample, share):
     measure(work, sensors, sample, share)
     integrate(system.tree, state.tree, work.response, system.dt)
     move_tracks(system.tracks, state.tracks, work.motion, system.tree.gravity, work.tracks, system.dt)
-    state.crank_angle[0] = (state.crank_angle[0] + system.dt * system.engine.speed) % (4.0 * np.pi)
+    state.crank_angle[0] = turn_crank(system.engine, state.crank_angle[0], system.dt)
     # the hull's accelerations act on its speed, every other one on that of its hinge
     total = state.tree.velocity.sum() + state.tree.rate.sum() + state.tree.hinge_rate.sum()
     # not np.isfinite: it compiles to total - total == 0, which reassociation turns into "true"

@@ -5,6 +5,7 @@ import os
 from contextlib import contextmanager
 from dataclasses import astuple, dataclass
 from pathlib import Path
+from typing import Generic, TypeVar
 
 from pydantic import TypeAdapter, ValidationError
 
@@ -16,31 +17,33 @@ DECISIVE = (  # modules that `drive` runs; all others may change without making 
     "road/**/*.py",
     "vehicle/**/*.py",
     "simulation/**/*.py",
+    "analysis/iso2631.py",
     "analysis/summary.py",
     "analysis/vibration.py",
     "studies/drive.py",
+    "studies/controlled.py",
 )
+C, R = TypeVar("C"), TypeVar("R")
 
 
 @dataclass(frozen=True)
-class _Stored:
+class _Stored(Generic[C, R]):
     """What a file holds."""
 
-    case: Case
-    result: Result
-
-
-_FILE = TypeAdapter(_Stored)
+    case: C
+    result: R
 
 
 class CaseStore:
     """A folder with one JSON file a finished case.
 
     A file counts only for the vehicle file and the program that made it: a hash of both leads its name.
+    Cases and results are dataclasses of the types given.
     """
 
-    def __init__(self, folder, vehicle_text):
+    def __init__(self, folder, vehicle_text, case=Case, result=Result):
         """Make the folder if there is none; raises OSError if that cannot be."""
+        self._file = TypeAdapter(_Stored[case, result])
         self._folder = Path(folder)
         self._folder.mkdir(parents=True, exist_ok=True)
         self._key = text_hash(vehicle_text + program())[:12]
@@ -51,16 +54,16 @@ class CaseStore:
         return sum(not path.name.startswith(self._key) for path in self._folder.glob("*.json"))
 
     def load(self, case):
-        """Return the `Result` of a case, or None if there is no file, or none that can be used."""
+        """Return the result of a case, or None if there is no file, or none that can be used."""
         try:
-            return _FILE.validate_json(self._path(case).read_bytes()).result
+            return self._file.validate_json(self._path(case).read_bytes()).result
         except (FileNotFoundError, ValidationError):
             return None
 
     def save(self, case, result):
         """Keep a result. Whatever happens, there is either a whole file or none."""
         with whole_file(self._path(case)) as draft:
-            draft.write_bytes(_FILE.dump_json(_Stored(case, result), indent=1))
+            draft.write_bytes(self._file.dump_json(_Stored(case, result), indent=1))
 
     def _path(self, case):
         return self._folder / f"{'_'.join(map(str, (self._key, *astuple(case))))}.json"

@@ -43,9 +43,9 @@ def farm(scheduler, cases):
         yield client
 
 
-def results(client, vehicle, cases):
-    """Yield each case with its `drive.Result`, in the order in which workers finish them; raises as `finished`."""
-    for k, result in finished(client, drive, [(vehicle, case) for case in cases]):
+def results(client, vehicle, cases, run=drive):
+    """Yield each case with `run(vehicle, case)`, in the order in which workers finish them; raises as `finished`."""
+    for k, result in finished(client, run, [(vehicle, case) for case in cases]):
         yield cases[k], result
 
 

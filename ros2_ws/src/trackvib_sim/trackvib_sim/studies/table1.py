@@ -63,11 +63,16 @@ def perform(classes, speeds, seeds, vehicle_file, scheduler, out):
 def cases(classes, speeds, seeds):
     """Return the cases of a study; seed and track phase of a case do not depend on how many there are."""
     return [
-        Case(road_class, speed, seed, seed * _GOLDEN % 1.0)
+        Case(road_class, speed, seed, track_phase(seed))
         for road_class in classes
         for speed in speeds
         for seed in range(1, seeds + 1)
     ]
+
+
+def track_phase(seed):
+    """Return the part of a pitch by which the right track lies ahead of the left one in the runs of a seed."""
+    return seed * _GOLDEN % 1.0
 
 
 def _print(console, rows, paper, folder):

@@ -13,7 +13,7 @@ from ..rui.tree import Tree, build_tree, new_rows, rest_lanes
 from .body_tree import GRAVITY, body_table
 from .coil import Coil, CoilState, coil, new_coil_state
 from .driver import Driver, driver
-from .engine import Engine, engine
+from .engine import Engine, RunUp, engine
 from .hinge_springs import HingeSprings, hinge_springs
 from .mount_audit import MountAudit, new_audit
 from .mr_mounts import MrMounts, mr_mounts
@@ -32,6 +32,7 @@ class Operation:
     engine_speed: float  # r/min, 0 for a standing engine
     imposed_displacement: bool  # the paper's engine excitation instead of forces and moments
     track_phase: float = 0.0  # part of a pitch by which the right track lies ahead of the left one
+    run_up: RunUp | None = None  # of the engine
 
 
 class System(NamedTuple):
@@ -55,7 +56,7 @@ class State(NamedTuple):
     tree: TreeState
     tracks: TrackState
     coils: CoilState
-    crank_angle: np.ndarray  # (1,) rad, within one cycle of all orders
+    crank_angle: np.ndarray  # (1,) rad, see engine.turn_crank
     speed_integral: np.ndarray  # (1,) N
     flight: np.ndarray  # (1,) time since a shoe last touched the ground, s
     audit: MountAudit
@@ -96,7 +97,7 @@ def build_system(vehicle, operation, dt):
         suspension=suspension(vehicle, rows, load),
         mounts=mr_mounts(vehicle, rows),
         coil=coil(vehicle, dt),
-        engine=engine(vehicle, rows, operation.engine_speed, operation.imposed_displacement),
+        engine=engine(vehicle, rows, operation.engine_speed, operation.imposed_displacement, operation.run_up),
         driver=driver(vehicle, rows, operation.speed),
         supports=standing,
         tracks=running_tracks,

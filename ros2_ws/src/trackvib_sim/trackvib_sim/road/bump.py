@@ -1,0 +1,22 @@
+"""A single bump across the whole width of a level road."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .iso8608 import SPACING
+
+
+@dataclass(frozen=True)
+class Bump:
+    """Level but for one raised cosine, height / 2 (1 - cos(2 pi x / length)), that begins at distance `start`."""
+
+    height: float  # m
+    length: float  # m
+    start: float  # m
+
+    def heights(self, first, count):
+        """Return the heights (2, count) [m], left and right, of the samples `first` ... `first + count - 1`."""
+        place = (SPACING * np.arange(first, first + count) - self.start) / self.length
+        bump = np.where((place > 0.0) & (place < 1.0), 0.5 * self.height * (1.0 - np.cos(2.0 * np.pi * place)), 0.0)
+        return np.stack((bump, bump))
