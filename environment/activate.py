@@ -51,7 +51,7 @@ def before_workspace(places: Places, ros: Ros, environ) -> dict:
     env["PYTHONNOUSERSITE"] = "1"  # packages under ~/.local are neither pinned nor known
     env["HOME"] = env.get("HOME") or _home(places)
     env.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    # The shared memory of a process that was killed can block every later one; sockets are as fast here.
+    # The shared memory of a process that was killed can block every later one; not in force with LOCALHOST, see docs.
     env.setdefault("FASTDDS_BUILTIN_TRANSPORTS", "UDPv4")
     if os.access(places.logs, os.W_OK):  # a checkout may belong to somebody else
         env.setdefault("ROS_LOG_DIR", str(places.logs / "ros"))
