@@ -166,6 +166,7 @@ def test_teeth_only_push_and_only_take_energy(system, toothed, height, angle, ve
     place = _polar(wheel.pitch_radius + height, angle)
     load = toothed(wheel, place, velocity, spin)
     assert load[HEAT] >= 0.0
+    assume(abs(height) > 1e-6)  # where flanks begin the force turns, and a difference over both sides means nothing
     # power taken from pin and sprocket against the energy's rate, by a central difference over the relative motion
     turned = spin * np.array([place[1], -place[0]])
     relative, dt = np.array(velocity) - turned, 1e-8

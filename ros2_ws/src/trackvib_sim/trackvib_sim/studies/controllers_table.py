@@ -58,8 +58,9 @@ class Verdict(NamedTuple):
 
 def table_rows(found):
     """Return the rows of a dict of cases and results (`controlled.ControlCase`, `controlled.ControlResult`)."""
-    by_row = {}
-    for case in sorted(found, key=lambda case: (list(SCENARIOS).index(case.scenario), case.seed)):
+    by_row, order = {}, list(SCENARIOS)
+    # not in the order in which runs were done: the table must not depend on it
+    for case in sorted(found, key=lambda c: (order.index(c.scenario), c.law != PASSIVE, c.law, c.current, c.seed)):
         key = (case.scenario, case.law, case.current if case.law == PASSIVE else None)
         by_row.setdefault(key, []).append(found[case])
     return [_row(key, results) for key, results in by_row.items()]
