@@ -31,6 +31,12 @@ def _ends_in_one_line(out):
         sys.exit(130)
 
 
+_VEHICLE = click.option("--vehicle", type=click.Path(dir_okay=False), default=None,
+                        help="Vehicle file.  [default: the one that comes with the package]")  # fmt: skip
+_SCHEDULER = click.option("--scheduler", default=None, metavar="ADDRESS",
+                          help="Dask scheduler whose workers do it.  [default: all cores of this machine]")  # fmt: skip
+
+
 @study.command()
 @click.option("--classes", type=Several(click.Choice(list(CLASSES))), default=",".join(CLASSES), show_default=True,
               metavar="A,B,...", help="Classes of the road by ISO 8608.")
@@ -38,10 +44,8 @@ def _ends_in_one_line(out):
               metavar="V,V,...", help="Speeds in m/s.")
 @click.option("--seeds", type=click.IntRange(1, 1000), default=3, show_default=True,
               help="Runs a class and speed, each with its own road and track phase.")
-@click.option("--vehicle", type=click.Path(dir_okay=False), default=None,
-              help="Vehicle file.  [default: the one that comes with the package]")
-@click.option("--scheduler", default=None, metavar="ADDRESS",
-              help="Dask scheduler whose workers do it.  [default: all cores of this machine]")
+@_VEHICLE
+@_SCHEDULER
 @click.option("--out", type=click.Path(file_okay=False), default="table1", show_default=True,
               help="Folder of the study; finished runs in it are not done again.")
 def table1(classes, speeds, seeds, vehicle, scheduler, out):
@@ -72,10 +76,8 @@ def figures(scheduler, out):
               show_default=True, metavar="NAME,NAME,...", help="What the vehicle does.")
 @click.option("--seeds", type=click.IntRange(1, 1000), default=3, show_default=True,
               help="Runs a law and scenario that varies, each with its own road and track phase.")
-@click.option("--vehicle", type=click.Path(dir_okay=False), default=None,
-              help="Vehicle file.  [default: the one that comes with the package]")
-@click.option("--scheduler", default=None, metavar="ADDRESS",
-              help="Dask scheduler whose workers do it.  [default: all cores of this machine]")
+@_VEHICLE
+@_SCHEDULER
 @click.option("--out", type=click.Path(file_okay=False), default="controllers", show_default=True,
               help="Folder of the study; finished runs in it are not done again.")
 def controllers(laws, scenarios, seeds, vehicle, scheduler, out):
