@@ -77,9 +77,9 @@ def _comparison(ours, paper, table):
         _line("bias, geometric mean of ours / paper", *(f"{bias:.3f}" for bias in column_bias(ours, paper))),
         "",
         "For scale: up to class E ours hardly depends on the class, while the paper's rows scatter among the",
-        f"classes. Over all its {len(table)} rows the factor would be {by_speed:.3f} with the best levels for each speed",
-        f"that are the same for all classes, and {by_power:.3f} with the best that grow as a power of the speed, one",
-        "power a column.",
+        f"classes. Over all its {len(table)} rows the factor would be {by_speed:.3f} with the best levels for each",
+        f"speed that are the same for all classes, and {by_power:.3f} with the best that grow as a power of the speed,",
+        "one power a column.",
     ]
     return "\n".join(lines) + "\n"
 
