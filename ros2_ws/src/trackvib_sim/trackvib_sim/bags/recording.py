@@ -94,7 +94,7 @@ _READ_ERRORS = (OSError, McapError, ZstdError, SerdeError, ValueError)  # mcap a
 def read_recording(path, follow=lambda done, total: None):
     """Return the `Recording` in a bag: a folder with MCAP files, or one such file, as far as it is whole.
 
-    Topics are found by the ends of their names. Of several that end alike the one in the namespace of the sensors counts.
+    Topics are found by the ends of their names. Of several that end alike the one beside the sensors counts.
 
     Parameters
     ----------
