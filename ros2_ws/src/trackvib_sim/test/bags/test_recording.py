@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from rclpy.serialization import serialize_message
 from rosbags.highlevel import AnyReader
+from std_msgs.msg import String
 from trackvib_sim.bags.recording import read_recording
-from trackvib_sim.bags.writing import BagError
+from trackvib_sim.bags.writing import BagError, BagWriter
 from trackvib_sim.simulation.settings import NANO
 
 from .made_bags import TYPES, write_bag
@@ -148,7 +150,18 @@ def test_topics_that_are_not_there(tmp_path):
     few = read_recording(tmp_path / "few")
     assert (few.mounts, few.answers, few.odometry, few.vehicle, few.diagnostics) == (None, None, None, None, {})
     write_bag(tmp_path / "bag", 20, topics=("chassis/imu", "mount_state"))
-    with pytest.raises(BagError, match="holds no messages on powertrain/imu"):
+    with pytest.raises(BagError, match="holds no sensor_msgs/msg/Imu on powertrain/imu"):
+        read_recording(tmp_path / "bag")
+
+
+@pytest.mark.property
+def test_a_topic_of_another_type_is_another_topic(tmp_path):
+    """What only has the name of a sensor is not taken for one."""
+    bag = BagWriter(tmp_path / "bag")
+    bag.add_topic("/chassis/imu", "std_msgs/msg/String", [], "")
+    bag.write("/chassis/imu", 1, serialize_message(String(data="text")))
+    bag.close()
+    with pytest.raises(BagError, match="holds no sensor_msgs/msg/Imu on chassis/imu, powertrain/imu"):
         read_recording(tmp_path / "bag")
 
 

@@ -188,7 +188,7 @@ def _notes(recording, timings, rate):
     for end, (found, _) in timings.items():
         counts = {
             f"gaps: {found.gap_count}, in which {found.missing} samples are missing": found.gap_count,
-            f"samples with the stamp of the one before: {found.repeated}": found.repeated,
+            f"samples within half a period of the one before: {found.repeated}": found.repeated,
             f"samples older than the one before: {found.backward}; nothing counts from there on": found.backward,
         }
         notes += [f"{end}: {text}" for text, count in counts.items() if count]

@@ -91,7 +91,7 @@ class Timing:
     first: float = _number("s")  # from the start of the bag
     last: float = _number("s")
     missing: int = _number("-")  # in all gaps
-    repeated: int = _number("-")  # samples with the stamp of the one before
+    repeated: int = _number("-")  # samples within half a period of the one before
     backward: int = _number("-")  # samples older than the one before
     gap_count: int = _number("-")
     gaps: tuple  # the `Gap`s, up to `MOST_GAPS`
