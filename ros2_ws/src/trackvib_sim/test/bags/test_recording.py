@@ -108,7 +108,7 @@ def test_one_file_and_several_files_are_bags_too(bag, tmp_path):
 
 @pytest.mark.property
 @given(share=st.floats(0.0, 1.0))
-@settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_a_bag_cut_anywhere_is_read_as_far_as_it_goes(bag, tmp_path, share):
     """What is read is the beginning of the whole; with less than a chunk there is one clear error."""
     whole, data = read_recording(bag), next(bag.glob("*.mcap")).read_bytes()
@@ -127,7 +127,7 @@ def test_a_bag_cut_anywhere_is_read_as_far_as_it_goes(bag, tmp_path, share):
 
 @pytest.mark.property
 @given(place=st.floats(0.0, 1.0, exclude_max=True), bit=st.integers(0, 7))
-@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=30, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_a_damaged_bag_never_gives_wrong_numbers(bag, tmp_path, place, bit):
     """A flipped bit makes a clear error, or costs whole chunks, or hits what is not needed."""
     whole, data = read_recording(bag), bytearray(next(bag.glob("*.mcap")).read_bytes())

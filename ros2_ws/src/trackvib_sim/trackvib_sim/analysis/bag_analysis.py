@@ -25,7 +25,13 @@ from .summary import (
 )
 from .vibration import band
 
-TOPICS = {"chassis": "chassis/imu", "powertrain": "powertrain/imu", "mounts": "mount_state", "odometry": "odometry"}
+TOPICS = {
+    "chassis": "chassis/imu",
+    "powertrain": "powertrain/imu",
+    "mounts": "mount_state",
+    "answers": "coil_current",
+    "odometry": "odometry",
+}
 
 
 def parameters_of(recording, node):
@@ -63,7 +69,7 @@ def analyse(recording, settle=None, follow=lambda done, total: None):
     settle = settling_of(recording) if settle is None else settle
     begin, loop = start_of(recording), loop_health(recording)
     timings = {
-        end: timing(getattr(recording, part).stamp, begin)
+        end: timing(getattr(recording, part)[0], begin)  # the first column of each is its stamps
         for part, end in TOPICS.items()
         if getattr(recording, part) is not None
     }
@@ -195,6 +201,4 @@ def _notes(recording, timings, rate):
     if rate < LEAST_RATE:
         notes.append(f"sampling rate is {rate:g} Hz, below {LEAST_RATE:g} Hz: no weighted values of ISO 2631-1")
     notes += [f"no {end} in the bag" for part, end in TOPICS.items() if getattr(recording, part) is None]
-    if recording.answers is None:
-        notes.append("no coil_current in the bag")
     return notes

@@ -84,7 +84,7 @@ class Gap:
 
 @dataclass(frozen=True)
 class Timing:
-    """What the stamps of a topic say, over the whole bag."""
+    """What the stamps of a topic say, over the whole bag; those of answers are of the samples that they answer."""
 
     samples: int = _number("-")
     period: float = _number("s")  # median step of the stamps
