@@ -12,7 +12,6 @@ from mcap.exceptions import McapError
 from rosbags.serde import SerdeError
 from zstandard import ZstdError
 
-from ..simulation.settings import NANO
 from .cdr_layout import type_store
 from .columns import Columns, Topic
 from .mcap_chunks import parts, take_apart
@@ -65,7 +64,6 @@ class Recording(NamedTuple):
     answers: Answers | None
     odometry: Odometry | None
     diagnostics: dict  # last values of the simulator, as text
-    diagnostics_history: list  # of (stamp [ns], dict of the simulator's values), in the bag's order
     provenance: dict  # metadata records of the bag: name -> dict of text
     counts: Counter  # messages a topic
     vehicle: str | None  # text of the vehicle file
@@ -139,7 +137,7 @@ class _Reading:
     def __init__(self):
         self._topics = {}  # name -> Topic, of those that are columns
         self._provenance, self._counts = {}, Counter()
-        self._history, self._vehicle = [], None
+        self._diagnostics, self._vehicle = {}, None
 
     def read(self, file, follow):
         """Read one file; ids of schemas and channels are its own."""
@@ -172,8 +170,8 @@ class _Reading:
             message = store.deserialize_cdr(data[first : first + length].data, _TYPES[end])
             if end == _DESCRIPTION:
                 self._vehicle = message.data
-            elif values := _of_simulator(message):
-                self._history.append((message.header.stamp.sec * NANO + message.header.stamp.nanosec, values))
+            else:
+                self._diagnostics |= _of_simulator(message)
 
     def recording(self, path):
         """Return it all."""
@@ -189,10 +187,7 @@ class _Reading:
         for end, topics in found.items():
             topics.sort(key=lambda topic, own=f"{space}{end}": topic != own)
             columns.append(self._topics[topics[0]].columns() if topics else None)
-        last = {}
-        for _, values in self._history:
-            last |= values
-        return Recording(path, *columns, last, self._history, self._provenance, self._counts, self._vehicle)
+        return Recording(path, *columns, self._diagnostics, self._provenance, self._counts, self._vehicle)
 
 
 def _of_simulator(message):
