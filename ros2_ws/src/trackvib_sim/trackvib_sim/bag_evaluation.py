@@ -1,0 +1,137 @@
+"""`trackvib analyze`: bags are read and measured one after the other; tables on the screen, files in one new folder."""
+
+import shutil
+from contextlib import contextmanager
+from datetime import datetime
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+from rich.table import Table
+
+from .analysis.bag_analysis import analyse
+from .analysis.bag_tables import write_tables
+from .analysis.levels import WEIGHTINGS
+from .analysis.summary import AXES
+from .bags.recording import read_recording
+from .bags.writing import BagError
+
+
+class EvaluationError(RuntimeError):
+    """Bags that cannot be analysed, or results that cannot be written."""
+
+
+def perform(bags, settle, out):
+    """Analyse some bags; see `analyze_cli`.
+
+    Raises
+    ------
+    EvaluationError
+        A bag cannot be read or is too short, or the folder exists or cannot be written. No folder is left then.
+    """
+    console = Console(highlight=False)
+    with _new_folder(out) as folder:
+        analyses = []
+        with _progress(console) as progress:
+            for bag in bags:
+                recording = read_recording(bag, _follower(progress, f"reading {bag}"))
+                try:
+                    analyses.append(analyse(recording, settle, _follower(progress, f"measuring {bag}")))
+                except ValueError as error:
+                    raise EvaluationError(f"bag {bag!r}: {error}") from None
+        write_tables(analyses, folder)
+    for number, analysis in enumerate(analyses, 1):
+        told = f"{analysis.duration:g} s, of which {analysis.measured:g} s count, after {analysis.settle:g} s"
+        console.print(f"bag {number}: {analysis.bag}: {told}", soft_wrap=True)
+        for note in analysis.notes:
+            console.print(f"  {note}", soft_wrap=True)
+    for table in (_levels, _lines, _mounts):
+        console.print(table(analyses))
+    console.print(f"left in {folder}: {', '.join(sorted(each.name for each in folder.iterdir()))}", soft_wrap=True)
+
+
+@contextmanager
+def _new_folder(out):
+    """Make the folder for the results; it is taken away again if they do not come about."""
+    folder = Path(out) if out is not None else Path("analyses") / f"{datetime.now():%Y%m%dT%H%M%S}"
+    try:
+        folder.mkdir(parents=True)
+    except FileExistsError:
+        raise EvaluationError(f"{str(folder)!r} exists already; nothing is overwritten, choose another --out") from None
+    except OSError as error:
+        raise EvaluationError(f"{str(folder)!r} cannot be made: {error.strerror}") from None
+    try:
+        yield folder
+    except BaseException as error:
+        shutil.rmtree(folder, ignore_errors=True)
+        if isinstance(error, BagError):
+            raise EvaluationError(str(error)) from None
+        if isinstance(error, OSError):
+            raise EvaluationError(f"{str(folder)!r} cannot be written: {error.strerror or error}") from None
+        raise
+
+
+def _progress(console):
+    columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
+    return Progress(*columns, console=console)
+
+
+def _follower(progress, description):
+    task = progress.add_task(description)
+    return lambda done, total: progress.update(task, completed=done, total=total)
+
+
+def _levels(analyses):
+    table = _table("acceleration, m/s²: band-limited; weighted by ISO 2631-1 (VDV in m/s^1.75)", ("",))
+    for name in ("RMS", "peak", "weighted", "crest", "MTVV", "VDV"):
+        table.add_column(name, justify="right")
+    for analysis in _sections(table, analyses):
+        for sensor, axes in analysis.sensors.items():
+            for axis, n in axes.items():
+                weighted = f"{WEIGHTINGS[AXES.index(axis)]} {n.rms_weighted:.3f}"
+                rest = (f"{value:.3f}" for value in (n.crest_factor, n.mtvv, n.vdv))
+                table.add_row(f"{sensor} {axis}", f"{n.rms:.3f}", f"{n.peak:.3f}", weighted, *rest)
+    return table
+
+
+def _lines(analyses):
+    table = _table("RMS about lines with a known cause, m/s²", ("", "Hz", ""))
+    for axis in AXES:
+        table.add_column(axis, justify="right")
+    for analysis in _sections(table, analyses):
+        for line in analysis.lines:
+            names = (line.name, f"{line.frequency:.1f}")
+            for sensor, axes in line.rms.items():
+                table.add_row(*names, sensor, *(f"{level:.3f}" for level in axes.values()))
+                names = ("", "")
+    return table
+
+
+def _mounts(analyses):
+    table = _table("mounts: vertical travel (mm) and force (kN) about their means, heat, current (A)", ("",))
+    for name in ("travel", "peak", "force", "peak", "heat, J", "mean", "least", "most"):
+        table.add_column(name, justify="right")
+    for analysis in _sections(table, analyses):
+        for side, mount in analysis.mounts.items():
+            z, current = mount.axes["z"], mount.current
+            lengths, forces = (z.travel_rms, z.travel_peak), (z.force_rms, z.force_peak)
+            numbers = (*(1e3 * each for each in lengths), *(1e-3 * each for each in forces), mount.energy_dissipated,
+                       current.mean, current.least, current.greatest)  # fmt: skip
+            table.add_row(side, *(f"{each:.2f}" for each in numbers))
+    return table
+
+
+def _sections(table, analyses):
+    """Iterate over some analyses, of which each gets a part of a table, with its number where there are several."""
+    for number, analysis in enumerate(analyses, 1):
+        table.add_section()
+        if len(analyses) > 1:
+            table.add_row(f"bag {number}", style="bold")
+        yield analysis
+
+
+def _table(title, words):
+    table = Table(title=title, title_justify="left")
+    for name in words:
+        table.add_column(name)
+    return table
