@@ -20,13 +20,13 @@ import numpy as np
 from ..mount import damping, stiffness
 
 # the vehicle as the laws know it; the powertrain's places are from its rear hinge, (x, z) in m
-HULL_MASS = 29_900.0  # kg, with turret and gun
+HULL_MASS = 29_980.0  # kg, with turret and gun
 SUSPENSION_STIFFNESS = 2.28e6  # N/m, all torsion bars
 SUSPENSION_DAMPING = 3.18e5  # N s/m, all shock absorbers
 POWERTRAIN_MASS = 3240.0  # kg
-POWERTRAIN_INERTIA = 2438.0  # kg m^2, about the y axis through its centre
-CENTRE = (0.5352, 0.0511)
-MOUNTS = (0.80, 0.20)
+POWERTRAIN_INERTIA = 2390.0  # kg m^2, about the y axis through its centre
+CENTRE = (0.5486, 0.0399)
+MOUNTS = (0.80, -0.05)
 HINGE_STIFFNESS = 2.0e5  # N m/rad
 
 HINGE_INERTIA = POWERTRAIN_INERTIA + POWERTRAIN_MASS * (CENTRE[0] ** 2 + CENTRE[1] ** 2)
