@@ -5,7 +5,7 @@ import signal
 import numpy as np
 import pytest
 from mr_mount_controller.laws import find_law, known_laws
-from trackvib_sim.bags.reading import read_drive
+from trackvib_sim.bags.recording import read_recording
 from trackvib_sim.installed import default_vehicle_file
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.closed_loop import run_closed_loop
@@ -47,7 +47,7 @@ def run_nodes(start_node, tmp_path):
         for node in others:
             node.signal(signal.SIGINT)
             assert node.wait() == 0, node.output
-        return read_drive(bag)
+        return read_recording(bag)
 
     return run
 
@@ -63,5 +63,5 @@ def test_three_ways_one_result(simulation, run_nodes, law):
             np.testing.assert_array_equal(sensor.stamp, record.stamp)
             np.testing.assert_array_equal(sensor.specific_force, record.specific_force[:, k])
             np.testing.assert_array_equal(sensor.rate, record.rate[:, k])
-        np.testing.assert_array_equal(drive.answered, record.stamp)
-        np.testing.assert_array_equal(drive.current, record.current)
+        np.testing.assert_array_equal(drive.answers.sample_stamp, record.stamp)
+        np.testing.assert_array_equal(drive.answers.current, record.current)

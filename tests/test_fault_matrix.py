@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from trackvib_sim.bags.reading import read_drive
+from trackvib_sim.bags.recording import read_recording
 
 pytestmark = pytest.mark.system
 
@@ -98,8 +98,8 @@ def test_simulator_killed_and_restarted(start_node, observer, tmp_path):
     assert "the samples start anew: law reset" in controller.output
     recorder.signal(signal.SIGINT)
     assert recorder.wait() == 0, recorder.output
-    drive = read_drive(tmp_path / "bag_epoch_2")
-    assert len(drive.chassis.stamp) == len(drive.answered) == 500
+    drive = read_recording(tmp_path / "bag_epoch_2")
+    assert len(drive.chassis.stamp) == len(drive.answers.sample_stamp) == 500
     assert drive.provenance["parameters of /simulator"]["speed"] == "12.0"
 
 

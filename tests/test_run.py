@@ -11,7 +11,7 @@ import yaml
 from mcap.reader import make_reader
 from mr_mount_controller.laws.skyhook import Skyhook
 from rosbags.rosbag2 import Reader
-from trackvib_sim.bags.reading import read_drive
+from trackvib_sim.bags.recording import read_recording
 from trackvib_sim.installed import default_vehicle_file
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.closed_loop import run_closed_loop
@@ -53,7 +53,7 @@ def first(tmp_path_factory):
 @pytest.fixture(scope="module")
 def drive(first):
     """The bag of that run."""
-    return read_drive(first[0] / "bag")
+    return read_recording(first[0] / "bag")
 
 
 def stream(folder, topic):
@@ -67,7 +67,7 @@ def test_not_one_message_is_lost(drive):
     expected = np.arange(1, SAMPLES + 1) * (NANO // 1000)
     np.testing.assert_array_equal(drive.chassis.stamp, expected)
     np.testing.assert_array_equal(drive.powertrain.stamp, expected)
-    np.testing.assert_array_equal(drive.answered, expected)
+    np.testing.assert_array_equal(drive.answers.sample_stamp, expected)
     assert drive.counts["/mount_state"] == SAMPLES
     # 100 a second and the one before the start
     assert drive.counts["/odometry"] == SAMPLES // 10 + 1
@@ -77,7 +77,7 @@ def test_not_one_message_is_lost(drive):
 
 def test_the_law_acts(drive):
     """The skyhook switches between its two currents, and both reach the coils."""
-    assert set(np.unique(drive.current)) == {0.8, 3.0}
+    assert set(np.unique(drive.answers.current)) == {0.8, 3.0}
 
 
 def test_same_seed_gives_identical_streams(first, tmp_path):
@@ -101,7 +101,7 @@ def test_loop_in_one_process_is_identical(drive):
     np.testing.assert_array_equal(record.specific_force[:, 0], drive.chassis.specific_force)
     np.testing.assert_array_equal(record.specific_force[:, 1], drive.powertrain.specific_force)
     np.testing.assert_array_equal(record.rate[:, 0], drive.chassis.rate)
-    np.testing.assert_array_equal(record.current, drive.current)
+    np.testing.assert_array_equal(record.current, drive.answers.current)
 
 
 def test_bag_opens_as_a_rosbag2(first):

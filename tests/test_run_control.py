@@ -4,7 +4,7 @@ import signal
 
 import pytest
 from mcap.reader import make_reader
-from trackvib_sim.bags.reading import read_drive
+from trackvib_sim.bags.recording import read_recording
 
 pytestmark = pytest.mark.system
 
@@ -76,7 +76,7 @@ def test_reset_gives_the_first_run_again(start_node, loop, observer, tmp_path):
         cut, whole = stream(first, topic), stream(second, topic)
         assert 500 <= len(cut) < len(whole) == 1500
         assert cut == whole[: len(cut)], topic
-    drive = read_drive(second)
+    drive = read_recording(second)
     assert drive.counts["/odometry"] == 151 and drive.counts["/vehicle_description"] == 1
     assert drive.counts["/road_profile"] > 10
     assert drive.provenance["parameters of /controller"]["law"] == "skyhook"

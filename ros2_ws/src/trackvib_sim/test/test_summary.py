@@ -1,11 +1,12 @@
 """What a summary says of a run: losses, settling, length, where the work on the mounts went."""
 
 from collections import Counter
+from pathlib import Path
 
 import numpy as np
 import pytest
 from trackvib_sim.analysis.summary import TooShort, losses, mount_energy, prepare, settling_time
-from trackvib_sim.bags.reading import Drive, Inertial
+from trackvib_sim.bags.recording import Answers, Inertial, Recording
 
 MS = 1_000_000  # ns
 
@@ -16,8 +17,9 @@ def drive(chassis, powertrain, answered, time):
         Inertial(np.array(stamps) * MS, np.zeros((len(stamps), 3)), np.zeros((len(stamps), 3)))
         for stamps in (chassis, powertrain)
     ]
-    answers = np.array(answered) * MS
-    return Drive(*sensors, answers, np.ones((len(answers), 2)), {"time": str(time)}, {}, Counter())
+    answers = Answers(np.array(answered) * MS, np.ones((len(answered), 2)))
+    told = {"time": str(time)}
+    return Recording(Path("bag"), *sensors, None, answers, None, told, [], {}, Counter(), None)
 
 
 @pytest.mark.property

@@ -14,7 +14,7 @@ from rich.table import Table
 
 from .analysis.plots import run_picture
 from .analysis.summary import AXES, SENSORS, SHORTEST_MEASURING, TooShort, prepare, settling_time, summarise
-from .bags.reading import read_drive
+from .bags.recording import read_recording
 from .bags.writing import BagError
 from .installed import closed_loop_parameters
 from .nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses
@@ -162,9 +162,9 @@ def _follow(processes, duration, console):
 def _evaluate(choices, folder, console):
     # of a run that was reset the last epoch; its bag has the highest number
     bag = max(folder.glob("bag*"), key=lambda path: (len(path.name), path.name))
-    drive = read_drive(bag)
-    prepared = prepare(drive, choices.settling)
-    summary = {"run": asdict(choices), **summarise(drive, prepared, choices.settling)}
+    recording = read_recording(bag)
+    prepared = prepare(recording, choices.settling)
+    summary = {"run": asdict(choices), **summarise(recording, prepared, choices.settling)}
     (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
     run_picture(prepared, choices.title, folder / "run.png")
     with (folder / "summary.txt").open("w", encoding="utf-8") as file:

@@ -30,7 +30,7 @@ class Prepared(NamedTuple):
     settled: np.ndarray  # (k,) bool, False while the run settles
 
 
-def prepare(drive, settle):
+def prepare(recording, settle):
     """Return what the measures work on; the first `settle` seconds count as settling.
 
     Raises
@@ -38,7 +38,7 @@ def prepare(drive, settle):
     TooShort
         Less than one second is left.
     """
-    stamp = drive.chassis.stamp
+    stamp = recording.chassis.stamp
     length = stamp[-1] / NANO
     if length < settle + SHORTEST_MEASURING:
         raise TooShort(
@@ -46,7 +46,7 @@ def prepare(drive, settle):
             f"({settle:g} s of settling and {SHORTEST_MEASURING:g} s to measure)"
         )
     rate = NANO / float(np.median(np.diff(stamp)))
-    raw = {sensor: getattr(drive, sensor).specific_force for sensor in SENSORS}
+    raw = {sensor: getattr(recording, sensor).specific_force for sensor in SENSORS}
     time = stamp / NANO
     limited = {sensor: band_limited(values, rate) for sensor, values in raw.items()}
     return Prepared(time, raw, limited, rate, time > settle)
@@ -60,28 +60,28 @@ def settling_time(speed, full_roughness):
     return max(SHORTEST_SETTLING, (full_roughness + VEHICLE_BEHIND) / speed) if speed > 0.0 else SHORTEST_SETTLING
 
 
-def losses(drive):
+def losses(recording):
     """Count, from stamps alone, what is missing between the start and the last sample that anything speaks of."""
-    stamp = drive.chassis.stamp
+    stamp = recording.chassis.stamp
     period = int(np.median(np.diff(stamp)))
-    told = round(float(drive.diagnostics.get("time", 0.0)) * NANO)  # by the simulator at its end
-    last = max(told, stamp[-1], drive.powertrain.stamp[-1], drive.answered.max())
+    told = round(float(recording.diagnostics.get("time", 0.0)) * NANO)  # by the simulator at its end
+    last = max(told, stamp[-1], recording.powertrain.stamp[-1], recording.answers.sample_stamp.max())
     expected = np.arange(period, last + period, period)
     return {
         "samples": len(expected),
         "lost_chassis": int(np.setdiff1d(expected, stamp).size),
-        "lost_powertrain": int(np.setdiff1d(expected, drive.powertrain.stamp).size),
-        "unanswered": int(np.setdiff1d(expected, drive.answered).size),
-        "answered_twice": int(len(drive.answered) - np.unique(drive.answered).size),
+        "lost_powertrain": int(np.setdiff1d(expected, recording.powertrain.stamp).size),
+        "unanswered": int(np.setdiff1d(expected, recording.answers.sample_stamp).size),
+        "answered_twice": int(len(recording.answers.sample_stamp) - np.unique(recording.answers.sample_stamp).size),
     }
 
 
-def mount_energy(drive):
+def mount_energy(recording):
     """Return where the work on the mounts went, as the simulator told at its end: a `MountEnergy`."""
-    return MountEnergy(*(float(drive.diagnostics[key]) for key in MOUNTS))
+    return MountEnergy(*(float(recording.diagnostics[key]) for key in MOUNTS))
 
 
-def summarise(drive, prepared, settle):
+def summarise(recording, prepared, settle):
     """Return the summary of a run as a dict of plain values, ready for JSON."""
     low, high = band(prepared.rate)
     return {
@@ -91,7 +91,7 @@ def summarise(drive, prepared, settle):
             sensor: dict(zip(AXES, rms(prepared.limited[sensor][prepared.settled]).tolist(), strict=True))
             for sensor in SENSORS
         },
-        "mounts_J": mount_energy(drive)._asdict(),
-        "loop": {**losses(drive), **{key: told for key, told in drive.diagnostics.items() if key not in MOUNTS}},
-        "messages": dict(sorted(drive.counts.items())),
+        "mounts_J": mount_energy(recording)._asdict(),
+        "loop": losses(recording) | {key: told for key, told in recording.diagnostics.items() if key not in MOUNTS},
+        "messages": dict(sorted(recording.counts.items())),
     }

@@ -1,0 +1,153 @@
+"""All that `analyze` says of a bag, as plain data. Each number carries its unit; `docs/bags.md` defines each.
+
+Sensors are "chassis" and "powertrain", axes "x" (forward), "y" (left) and "z" (up), sides "left" and "right". A number
+that cannot be had is nan, and the notes of the `Analysis` say why.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+SIDES = ("left", "right")
+
+
+def _number(unit):
+    return field(metadata={"unit": unit})
+
+
+@dataclass(frozen=True)
+class AxisNumbers:
+    """One sensor along one axis over the measured time."""
+
+    mean: float = _number("m/s²")  # of the specific force as recorded; +g on z at rest
+    rms_raw: float = _number("m/s²")  # about that mean
+    rms: float = _number("m/s²")  # band-limited
+    peak: float = _number("m/s²")  # greatest absolute value, band-limited
+    rms_weighted: float = _number("m/s²")  # ISO 2631-1, Wd along x and y, Wk along z
+    crest_factor: float = _number("-")  # greatest absolute weighted value over rms_weighted
+    mtvv: float = _number("m/s²")  # greatest running RMS of the weighted values over 1 s
+    vdv: float = _number("m/s^1.75")  # fourth-power vibration dose value of the weighted ones
+
+
+@dataclass(frozen=True)
+class Line:
+    """A line of the spectrum with a known cause, and what lies in a band around it."""
+
+    name: str  # "link passing 1", "engine order 2"
+    frequency: float = _number("Hz")
+    low: float = _number("Hz")  # of the band
+    high: float = _number("Hz")
+    rms: dict = _number("m/s²")  # sensor -> axis -> RMS in the band
+
+
+@dataclass(frozen=True)
+class Current:
+    """Current of one coil over the measured time."""
+
+    mean: float = _number("A")
+    rms: float = _number("A")
+    least: float = _number("A")
+    greatest: float = _number("A")
+    slew: float = _number("A/s")  # greatest absolute change from sample to sample, over their distance in time
+
+
+@dataclass(frozen=True)
+class MountAxis:
+    """One mount along one axis of the hull; travel is deflection less its mean, upper end against lower."""
+
+    deflection_mean: float = _number("m")  # from the unloaded place
+    travel_rms: float = _number("m")
+    travel_peak: float = _number("m")  # greatest distance from the mean
+    force_mean: float = _number("N")  # on the powertrain
+    force_rms: float = _number("N")  # about the mean
+    force_peak: float = _number("N")  # greatest distance from the mean
+
+
+@dataclass(frozen=True)
+class MountNumbers:
+    """One mount over the measured time."""
+
+    axes: dict  # axis -> MountAxis
+    current: Current  # in the coil
+    energy_dissipated: float = _number("J")  # by its damping
+    power_dissipated: float = _number("W")  # mean
+
+
+@dataclass(frozen=True)
+class Gap:
+    """A place where stamps of a topic jump ahead."""
+
+    begin: float = _number("s")  # last sample before it, from the start of the bag
+    length: float = _number("s")  # to the next sample
+    missing: int = _number("-")  # samples that should lie within
+
+
+@dataclass(frozen=True)
+class Timing:
+    """What the stamps of a topic say, over the whole bag."""
+
+    samples: int = _number("-")
+    period: float = _number("s")  # median step of the stamps
+    first: float = _number("s")  # from the start of the bag
+    last: float = _number("s")
+    missing: int = _number("-")  # in all gaps
+    repeated: int = _number("-")  # samples with the stamp of the one before
+    backward: int = _number("-")  # samples older than the one before
+    gap_count: int = _number("-")
+    gaps: tuple  # the `Gap`s, up to `MOST_GAPS`
+
+    @property
+    def sound(self):
+        """Whether each sample follows the one before by one period."""
+        return not (self.gap_count or self.repeated or self.backward)
+
+
+@dataclass(frozen=True)
+class Spectra:
+    """Means over the measured time by Welch's method: windows of 1 s, Hann, half overlapping."""
+
+    frequency: np.ndarray = _number("Hz")  # (f,)
+    psd: dict = _number("(m/s²)²/Hz")  # sensor -> (f, 3), one-sided
+    coherence: np.ndarray = _number("-")  # (f, 3) of chassis and powertrain, axis by axis
+    transmissibility: np.ndarray = _number("-")  # (f, 3) from chassis to powertrain, |H1|
+
+
+@dataclass(frozen=True)
+class History:
+    """Levels along the whole bag, settling included, in bins of equal length; nan where there is nothing."""
+
+    time: np.ndarray = _number("s")  # (n,) middle of each bin, from the start of the bag
+    rms: dict = _number("m/s²")  # sensor -> (n, 3) band-limited
+    rms_weighted: dict = _number("m/s²")  # sensor -> (n, 3)
+    speed: np.ndarray = _number("m/s")  # (n,) mean
+    current: np.ndarray = _number("A")  # (n, 2) mean in the coils
+    power_dissipated: np.ndarray = _number("W")  # (n, 2) mean
+    travel: np.ndarray = _number("m")  # (n, 2) RMS of the vertical travel about its mean over the bin
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """A bag in numbers. "From the start" means from one period before its first chassis sample."""
+
+    bag: str  # path as it was given
+    begin: int = _number("ns")  # stamp of the start
+    duration: float = _number("s")  # from the start to the last sample of both sensors
+    settle: float = _number("s")  # of the start that does not count
+    measured: float = _number("s")  # time that counts
+    rate: float = _number("Hz")  # of the sensors
+    band: tuple = _number("Hz")  # low and high end of "band-limited"
+    speed: float = _number("m/s")  # mean forward speed of the hull
+    speed_deviation: float = _number("m/s")  # its standard deviation
+    engine_speed: float = _number("r/min")  # as the simulator was told
+    sensors: dict  # sensor -> axis -> AxisNumbers
+    total_weighted: dict = _number("m/s²")  # sensor -> root of the sum of the three rms_weighted squared
+    lines: tuple  # `Line`s, link passing first
+    mounts: dict  # side -> MountNumbers; empty without mount states
+    demand: dict  # side -> Current that the controller asked for; empty without answers
+    mount_energy: dict = _number("J")  # the simulator's own account of the whole run; empty if it told none
+    loop: dict  # what was lost, and what the simulator told last
+    messages: dict  # topic -> count
+    timing: dict  # end of topic -> Timing
+    spectra: Spectra
+    history: History
+    notes: tuple  # sentences: what was found wrong, what could not be had and why

@@ -1,0 +1,79 @@
+"""Messages of a topic as columns of numbers, gathered without Python a message.
+
+The columns lie in unnamed temporary files that are mapped into memory: the system keeps of them what it has room for,
+and they are gone with the arrays.
+"""
+
+from tempfile import TemporaryFile
+from typing import NamedTuple
+
+import numpy as np
+
+from ..simulation.settings import NANO
+from .cdr_layout import find_layout
+from .mcap_chunks import at
+
+
+class Columns(NamedTuple):
+    """How a topic becomes a record of columns: its type, and by column the field in the message and its shape."""
+
+    kind: type
+    fields: dict
+
+    @property
+    def row(self):
+        """Structured dtype of one message's numbers."""
+        first, *others = self.fields.items()
+        return np.dtype([(first[0], np.int64), *((name, np.float64, shape) for name, (_, shape) in others)])
+
+    @property
+    def wanted(self):
+        """Shapes by the names of the fields in the message."""
+        first, *others = self.fields.values()
+        return {f"{first}.sec": (), f"{first}.nanosec": (), **dict(others)}
+
+
+class Topic:
+    """The columns of a topic as they grow."""
+
+    def __init__(self, columns):
+        self._columns = columns
+        self._file = TemporaryFile()  # noqa: SIM115, lives as long as the arrays
+        self._layout = None
+
+    def add(self, store, type_name, data, start, size):
+        """Add messages that stand at places of some bytes."""
+        rows = np.empty(len(start), self._columns.row)
+        left = np.arange(len(start))
+        # one turn for messages whose frame is called alike, which is nearly always all of them
+        while len(left):
+            fitting = self._fitting(data, start[left], size[left])
+            if not fitting.any():
+                first = start[left[0]]
+                message = data[first : first + size[left[0]]].tobytes()
+                self._layout = find_layout(store, type_name, message, self._columns.wanted)
+                continue
+            self._fill(rows, left[fitting], at(data, self._layout.numbers, start[left[fitting]]))
+            left = left[~fitting]
+        self._file.write(rows.data)
+
+    def _fitting(self, data, start, size):
+        if self._layout is None:
+            return np.zeros(len(start), bool)
+        fitting = size == self._layout.size
+        lengths = at(data, self._layout.lengths, start[fitting])
+        fitting[fitting] = lengths == self._layout.values
+        return fitting
+
+    def _fill(self, rows, where, numbers):
+        seconds, nanoseconds, *names = self._columns.wanted
+        stamp, *columns = self._columns.row.names
+        rows[stamp][where] = numbers[seconds].astype(np.int64) * NANO + numbers[nanoseconds]
+        for column, name in zip(columns, names, strict=True):
+            rows[column][where] = numbers[name]
+
+    def columns(self):
+        """Return the record of columns, mapped into memory."""
+        self._file.flush()
+        rows = np.memmap(self._file, self._columns.row, "r")
+        return self._columns.kind(*(rows[name] for name in rows.dtype.names))
