@@ -1,0 +1,82 @@
+"""How every figure of a report looks. Text and grid get their colours from the page, which follows light and dark."""
+
+from html import escape
+from math import log10
+
+import plotly.graph_objects as go
+
+from ..plots import COLOURS, LOWEST_FREQUENCY, NAMES
+
+SENSOR_COLOURS = COLOURS
+AXIS_COLOURS = {"x": "#2a9d8f", "y": "#9467bd", "z": "#c8453c"}
+SIDE_COLOURS = {"left": "#2a9d8f", "right": "#b0508f"}
+BAG_COLOURS = ("#1b9e77", "#cc5a9b", "#d99a1c", "#4aa3df", "#8c6bb1", "#808080")
+BAG_DASHES = ("solid", "dash", "dot")  # for more bags than colours
+AXIS_NAMES = dict(zip("xyz", NAMES, strict=True))
+GRID = "rgba(128,128,128,0.28)"
+LINE_COLOURS = {"link passing": "rgba(128,128,128,0.9)", "engine order": "rgba(190,140,20,0.95)"}
+_LONGEST = 48  # characters of a name in a legend
+
+
+def plain(text):
+    """Return a text from a bag so that a figure shows it as it stands, and not too much of it."""
+    text = str(text)
+    return escape(text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…", quote=False)
+
+
+def styled(figure, height, title=None):
+    """Give a figure its looks; returns it."""
+    figure.update_layout(
+        template=None,
+        height=height,
+        title={"text": title, "x": 0.0, "xref": "container", "xanchor": "left", "y": 1.0, "yanchor": "top",
+               "pad": {"t": 8, "l": 8}, "font": {"size": 14}},
+        margin={"l": 62, "r": 12, "t": 56 if title else 34, "b": 46},
+        font={"family": "system-ui, sans-serif", "size": 12},
+        paper_bgcolor="rgba(0,0,0,0)",
+        plot_bgcolor="rgba(0,0,0,0)",
+        legend={"orientation": "h", "x": 0.0, "y": 1.0, "yanchor": "bottom", "bgcolor": "rgba(0,0,0,0)"},
+    )  # fmt: skip
+    lines = {"gridcolor": GRID, "zerolinecolor": GRID, "linecolor": GRID, "showline": True, "mirror": True}
+    figure.update_xaxes(**lines, title_standoff=6)
+    figure.update_yaxes(**lines, title_standoff=4)
+    return figure
+
+
+def line(points, name, colour, **options):
+    """Return a line through points, a pair of arrays (n,)."""
+    style = {"color": colour, "width": options.pop("width", 1.1), "dash": options.pop("dash", "solid")}
+    return go.Scatter(x=points[0], y=points[1], name=name, mode="lines", line=style, **options)
+
+
+def over_frequency(traces, analysis, title, unit, logarithmic=True):
+    """Return a figure of lines over the logarithm of the frequency, known lines of the spectrum marked."""
+    figure = styled(go.Figure(traces), 340, title)
+    top = 0.5 * analysis.rate
+    ticks = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000]
+    low, high = log10(LOWEST_FREQUENCY), log10(max(top, 2.0 * LOWEST_FREQUENCY))
+    figure.update_xaxes(type="log", range=(low, high), tickvals=ticks, title_text="frequency, Hz")
+    figure.update_yaxes(title_text=unit)
+    if logarithmic:
+        figure.update_yaxes(type="log", exponentformat="power", dtick=1)
+    for each in analysis.lines:
+        kind, _, number = each.name.rpartition(" ")
+        passing = kind == "link passing"
+        words = f"order {number}" if not passing else "v/p" if number == "1" else f"{number} v/p"
+        label = {"text": words, "textposition": "end" if passing else "start", "textangle": -90, "font": {"size": 10}}
+        colour = LINE_COLOURS.get(kind, GRID)
+        if LOWEST_FREQUENCY <= each.frequency <= top:
+            figure.add_shape(
+                type="line", x0=each.frequency, x1=each.frequency, y0=0.0, y1=1.0, yref="paper", layer="below",
+                line={"color": colour, "width": 1, "dash": "dot" if passing else "dash"}, label=label,
+            )  # fmt: skip
+    return figure
+
+
+def settling(figure, analysis):
+    """Shade the settling time of a figure over time."""
+    if analysis.settle > 0.0:
+        figure.add_vrect(x0=0.0, x1=analysis.settle, fillcolor="rgba(128,128,128,0.15)", line_width=0, layer="below")
+    return figure
+
+

@@ -1,0 +1,162 @@
+"""The tables of a report as plain text: heads and rows of cells."""
+
+from dataclasses import fields
+from math import isfinite
+from typing import NamedTuple
+
+from ..bag_numbers import SIDES, AxisNumbers
+from ..summary import AXES, SENSORS
+from .figure_style import AXIS_NAMES
+
+_WORDS = {
+    "rms": "RMS, band-limited",
+    "rms_raw": "RMS, raw, about the mean",
+    "peak": "peak, band-limited",
+    "rms_weighted": "RMS, weighted",
+    "crest_factor": "crest factor, weighted",
+    "mtvv": "MTVV",
+    "vdv": "VDV",
+    "mean": "mean",
+}
+_MOUNT = (  # words, unit, what it is of a `MountNumbers`, factor
+    ("deflection, mean", "mm", lambda mount: 1e3 * mount.axes["z"].deflection_mean),
+    ("travel, RMS", "mm", lambda mount: 1e3 * mount.axes["z"].travel_rms),
+    ("travel, peak", "mm", lambda mount: 1e3 * mount.axes["z"].travel_peak),
+    ("force, mean", "kN", lambda mount: 1e-3 * mount.axes["z"].force_mean),
+    ("force, RMS about the mean", "kN", lambda mount: 1e-3 * mount.axes["z"].force_rms),
+    ("force, peak about the mean", "kN", lambda mount: 1e-3 * mount.axes["z"].force_peak),
+    ("current, mean", "A", lambda mount: mount.current.mean),
+    ("current, least", "A", lambda mount: mount.current.least),
+    ("current, greatest", "A", lambda mount: mount.current.greatest),
+    ("current, fastest change", "A/s", lambda mount: mount.current.slew),
+    ("energy dissipated", "J", lambda mount: mount.energy_dissipated),
+    ("power dissipated, mean", "W", lambda mount: mount.power_dissipated),
+)
+_UNITS = {field.name: field.metadata["unit"] for field in fields(AxisNumbers)}
+_WORRYING = (
+    "lost_chassis", "lost_powertrain", "unanswered", "answered_twice", "late", "duplicate", "early", "not_finite",
+    "saturated", "silent_periods", "overruns",
+)  # fmt: skip
+
+
+class Table(NamedTuple):
+    """A table; the first `words` cells of each row are words, the others numbers."""
+
+    head: tuple
+    rows: list
+    words: int = 1
+
+
+def number(value, digits=4):
+    """Return a number in words; a dash for none."""
+    return f"{value:.{digits}g}" if isfinite(value) else "–"
+
+
+def change(value, first):
+    """Return by how much a number differs from the first one, in words."""
+    return f"{100.0 * (value / first - 1.0):+.1f} %" if isfinite(value) and isfinite(first) and first else "–"
+
+
+def accelerations(analysis):
+    """Both sensors by axis, and by how much less the powertrain has."""
+    head = ("", "unit", *(f"{sensor} {axis}" for axis in AXES for sensor in SENSORS), *(f"change {axis}" for axis in AXES))
+    rows = []
+    for name, words in _WORDS.items():
+        of = {sensor: [getattr(analysis.sensors[sensor][axis], name) for axis in AXES] for sensor in SENSORS}
+        both = list(zip(of["chassis"], of["powertrain"], strict=True))
+        changes = [change(p, c) if name != "mean" else "" for c, p in both]
+        rows.append((words, _UNITS[name], *(number(value) for pair in both for value in pair), *changes))
+    return Table(head, rows, 2)
+
+
+def lines(analysis):
+    """What lies in the bands about known lines of the spectrum."""
+    head = ("", "Hz", "band, Hz", *(f"{sensor} {axis}" for axis in AXES for sensor in SENSORS))
+    rows = [
+        (
+            line.name,
+            number(line.frequency),
+            f"{line.low:.4g} to {line.high:.4g}",
+            *(number(line.rms[sensor][axis], 3) for axis in AXES for sensor in SENSORS),
+        )
+        for line in analysis.lines
+    ]
+    return Table(head, rows)
+
+
+def mounts(analysis):
+    """Both mounts, along the vertical."""
+    rows = [
+        (words, unit, *(number(of(analysis.mounts[side])) for side in SIDES if side in analysis.mounts))
+        for words, unit, of in _MOUNT
+    ]
+    return Table(("vertical", "unit", *(side for side in SIDES if side in analysis.mounts)), rows, 2)
+
+
+def loop(analysis):
+    """What was counted in the loop, and what the simulator told last."""
+    return Table(("", ""), [(_spaced(key), str(value)) for key, value in analysis.loop.items()])
+
+
+def worries(analysis):
+    """Return what was counted in the loop and should not have been, in words."""
+    counted = {key: _whole(analysis.loop.get(key, 0)) for key in _WORRYING}
+    return [f"{count} {_spaced(key)}" for key, count in counted.items() if count]
+
+
+def timing(analysis):
+    """What the stamps of each topic say."""
+    rows = [
+        (
+            topic, f"{each.samples}", number(1e3 * each.period), number(each.first, 6), number(each.last, 6),
+            f"{each.missing}", f"{each.gap_count}", f"{each.repeated}", f"{each.backward}",
+        )
+        for topic, each in analysis.timing.items()
+    ]  # fmt: skip
+    head = ("stamps of", "samples", "period, ms", "first, s", "last, s", "missing", "gaps", "repeated", "backward")
+    return Table(head, rows)
+
+
+def gaps(analysis, most=50):
+    """The first gaps of each topic."""
+    rows = [
+        (topic, number(gap.begin, 7), number(gap.length), f"{gap.missing}")
+        for topic, each in analysis.timing.items()
+        for gap in each.gaps[:most]
+    ]
+    return Table(("gap in", "after, s", "length, s", "samples missing"), rows)
+
+
+def comparison(analyses, names):
+    """Numbers of several bags, and by how much they differ from the first one's."""
+    rows = []
+
+    def add(words, unit, of):
+        values = [of(analysis) for analysis in analyses]
+        if any(map(isfinite, values)):
+            told = (f"{number(value)} ({change(value, values[0])})" for value in values[1:])
+            rows.append((words, unit, number(values[0]), *told))
+
+    for quantity in ("rms", "rms_weighted", "vdv", "peak"):
+        for sensor in reversed(SENSORS):
+            for axis in AXES:
+                words = f"{sensor} {AXIS_NAMES[axis]}, {_WORDS[quantity]}"
+                add(words, _UNITS[quantity], lambda a, s=sensor, x=axis, q=quantity: getattr(a.sensors[s][x], q))
+    for sensor in reversed(SENSORS):
+        add(f"{sensor}, weighted, all axes", "m/s²", lambda a, s=sensor: a.total_weighted[s])
+    for side in SIDES:
+        for words, unit, of in _MOUNT:
+            lacking = float("nan")
+            add(f"{side} mount, {words}", unit, lambda a, s=side, f=of: f(a.mounts[s]) if s in a.mounts else lacking)
+    return Table(("", "unit", *names), rows, 2)
+
+
+def _spaced(key):
+    return key.replace("_", " ")
+
+
+def _whole(text):
+    try:
+        return int(float(text))
+    except (ValueError, OverflowError):
+        return 0
