@@ -12,8 +12,9 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
+from .analysis.bag_analysis import analyse
 from .analysis.plots import run_picture
-from .analysis.summary import AXES, SENSORS, SHORTEST_MEASURING, TooShort, prepare, settling_time, summarise
+from .analysis.summary import AXES, SENSORS, SHORTEST_MEASURING, prepare, settling_time, summarise
 from .bags.recording import read_recording
 from .bags.writing import BagError
 from .installed import closed_loop_parameters
@@ -76,7 +77,7 @@ def perform(choices, out):
         interrupt = _run_nodes(choices, folder, console)
     try:
         _evaluate(choices, folder, console)
-    except (BagError, TooShort) as error:
+    except (BagError, ValueError) as error:
         raise interrupt or RunError(str(error)) from None
     if interrupt is not None:
         raise interrupt
@@ -163,10 +164,9 @@ def _evaluate(choices, folder, console):
     # of a run that was reset the last epoch; its bag has the highest number
     bag = max(folder.glob("bag*"), key=lambda path: (len(path.name), path.name))
     recording = read_recording(bag)
-    prepared = prepare(recording, choices.settling)
-    summary = {"run": asdict(choices), **summarise(recording, prepared, choices.settling)}
+    summary = {"run": asdict(choices), **summarise(analyse(recording, choices.settling))}
     (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
-    run_picture(prepared, choices.title, folder / "run.png")
+    run_picture(prepare(recording, choices.settling), choices.title, folder / "run.png")
     with (folder / "summary.txt").open("w", encoding="utf-8") as file:
         _print_summary(Console(file=file, width=100), summary, folder)
     _print_summary(console, summary, folder)

@@ -127,7 +127,7 @@ class History:
 
 @dataclass(frozen=True)
 class Analysis:
-    """A bag in numbers. "From the start" means from one period before its first chassis sample."""
+    """A bag in numbers. "From the start" means from one period before its first sample, 0 of a whole run."""
 
     bag: str  # path as it was given
     begin: int = _number("ns")  # stamp of the start
@@ -144,7 +144,7 @@ class Analysis:
     lines: tuple  # `Line`s, link passing first
     mounts: dict  # side -> MountNumbers; empty without mount states
     demand: dict  # side -> Current that the controller asked for; empty without answers
-    mount_energy: dict = _number("J")  # the simulator's own account of the whole run; empty if it told none
+    mount_energy: dict | None = _number("J")  # the simulator's own account of the whole run, if it told one
     loop: dict  # what was lost, and what the simulator told last
     messages: dict  # topic -> count
     timing: dict  # end of topic -> Timing

@@ -1,4 +1,4 @@
-"""The headline numbers of one run."""
+"""The headline numbers of one run, its start, and its losses."""
 
 from typing import NamedTuple
 
@@ -6,13 +6,15 @@ import numpy as np
 
 from ..simulation.settings import NANO
 from ..vehicle.mount_audit import MountEnergy
-from .vibration import band, band_limited, rms
+from .stretches import BLOCK, blocks, period_of
+from .vibration import band_limited
 
 AXES = ("x", "y", "z")
 SENSORS = ("chassis", "powertrain")
 SHORTEST_SETTLING = 2.0  # s
 SHORTEST_MEASURING = 1.0  # s
 MOUNTS = tuple(f"mount_{part}_J" for part in MountEnergy._fields)  # in the simulator's diagnostics
+MOST_LOST = 1000  # times the samples that are there
 VEHICLE_BEHIND = 2.5  # m from the hull's origin to beyond the rear wheels
 
 
@@ -21,9 +23,9 @@ class TooShort(ValueError):
 
 
 class Prepared(NamedTuple):
-    """Accelerations of both sensors, ready to be measured."""
+    """Accelerations of both sensors, ready to be drawn."""
 
-    time: np.ndarray  # (k,) s
+    time: np.ndarray  # (k,) s from the start
     raw: dict  # sensor -> (k, 3) specific force as recorded, m/s^2
     limited: dict  # sensor -> (k, 3) the same, band-limited
     rate: float  # Hz
@@ -31,23 +33,11 @@ class Prepared(NamedTuple):
 
 
 def prepare(recording, settle):
-    """Return what the measures work on; the first `settle` seconds count as settling.
-
-    Raises
-    ------
-    TooShort
-        Less than one second is left.
-    """
+    """Return what pictures show; the first `settle` seconds count as settling."""
     stamp = recording.chassis.stamp
-    length = stamp[-1] / NANO
-    if length < settle + SHORTEST_MEASURING:
-        raise TooShort(
-            f"the run is {length:g} s long, RMS values need {settle + SHORTEST_MEASURING:g} s "
-            f"({settle:g} s of settling and {SHORTEST_MEASURING:g} s to measure)"
-        )
-    rate = NANO / float(np.median(np.diff(stamp)))
+    rate = NANO / period_of(stamp)
     raw = {sensor: getattr(recording, sensor).specific_force for sensor in SENSORS}
-    time = stamp / NANO
+    time = (stamp - start_of(recording)) / NANO
     limited = {sensor: band_limited(values, rate) for sensor, values in raw.items()}
     return Prepared(time, raw, limited, rate, time > settle)
 
@@ -60,38 +50,67 @@ def settling_time(speed, full_roughness):
     return max(SHORTEST_SETTLING, (full_roughness + VEHICLE_BEHIND) / speed) if speed > 0.0 else SHORTEST_SETTLING
 
 
+def start_of(recording):
+    """Return the time [ns] at which a recording starts: 0 of a whole run, else one period before its first sample."""
+    odometry, chassis = recording.odometry, recording.chassis.stamp
+    if odometry is not None and odometry.stamp[0] == 0:  # of the vehicle before the first period
+        return 0
+    return int(min(chassis[0], recording.powertrain.stamp[0]) - period_of(chassis))
+
+
 def losses(recording):
-    """Count, from stamps alone, what is missing between the start and the last sample that anything speaks of."""
-    stamp = recording.chassis.stamp
-    period = int(np.median(np.diff(stamp)))
+    """Count, from stamps alone, what is missing between the start and the last sample that anything speaks of.
+
+    Raises
+    ------
+    ValueError
+        The stamps are no time base: they reach over much more time than samples can fill.
+    """
+    chassis, powertrain = recording.chassis.stamp, recording.powertrain.stamp
+    answered = np.empty(0, np.int64) if recording.answers is None else recording.answers.sample_stamp
+    begin, period = start_of(recording), period_of(chassis)
     told = round(float(recording.diagnostics.get("time", 0.0)) * NANO)  # by the simulator at its end
-    last = max(told, stamp[-1], recording.powertrain.stamp[-1], recording.answers.sample_stamp.max())
-    expected = np.arange(period, last + period, period)
+    last = max(told, *(int(stamp.max()) for stamp in (chassis, powertrain, answered) if stamp.size))
+    expected = round((last - begin) / period)
+    if not 0 < expected <= MOST_LOST * len(chassis):
+        reach = f"{(last - begin) / NANO:g} s in steps of {period / NANO:g} s"
+        raise ValueError(f"stamps reach over {reach}, which {len(chassis)} samples of chassis/imu cannot fill")
+    counted = {}
+    for name, stamp in (("chassis", chassis), ("powertrain", powertrain), ("answered", answered)):
+        seen = np.zeros(expected, bool)
+        for block in blocks(len(stamp), BLOCK):
+            index = np.round((stamp[block] - begin) / period).astype(np.int64) - 1
+            seen[index[(index >= 0) & (index < expected)]] = True
+        counted[name] = int(np.count_nonzero(seen))
     return {
-        "samples": len(expected),
-        "lost_chassis": int(np.setdiff1d(expected, stamp).size),
-        "lost_powertrain": int(np.setdiff1d(expected, recording.powertrain.stamp).size),
-        "unanswered": int(np.setdiff1d(expected, recording.answers.sample_stamp).size),
-        "answered_twice": int(len(recording.answers.sample_stamp) - np.unique(recording.answers.sample_stamp).size),
+        "samples": expected,
+        "lost_chassis": expected - counted["chassis"],
+        "lost_powertrain": expected - counted["powertrain"],
+        "unanswered": expected - counted["answered"],
+        "answered_twice": len(answered) - counted["answered"],
     }
 
 
+def loop_health(recording):
+    """Return the `losses`, and what the simulator told last as text, but for the work on the mounts."""
+    return losses(recording) | {key: told for key, told in recording.diagnostics.items() if key not in MOUNTS}
+
+
 def mount_energy(recording):
-    """Return where the work on the mounts went, as the simulator told at its end: a `MountEnergy`."""
-    return MountEnergy(*(float(recording.diagnostics[key]) for key in MOUNTS))
+    """Return where the work on the mounts went, as the simulator told at its end: a `MountEnergy`, or None."""
+    told = [recording.diagnostics.get(key) for key in MOUNTS]
+    return None if None in told else MountEnergy(*map(float, told))
 
 
-def summarise(recording, prepared, settle):
-    """Return the summary of a run as a dict of plain values, ready for JSON."""
-    low, high = band(prepared.rate)
+def summarise(analysis):
+    """Return the summary of a run, of its `bag_numbers.Analysis`, as a dict of plain values, ready for JSON."""
     return {
-        "band_hz": [low, high],
-        "settled_after_s": settle,
+        "band_hz": list(analysis.band),
+        "settled_after_s": analysis.settle,
         "rms_mps2": {
-            sensor: dict(zip(AXES, rms(prepared.limited[sensor][prepared.settled]).tolist(), strict=True))
-            for sensor in SENSORS
+            sensor: {axis: numbers.rms for axis, numbers in axes.items()} for sensor, axes in analysis.sensors.items()
         },
-        "mounts_J": mount_energy(recording)._asdict(),
-        "loop": losses(recording) | {key: told for key, told in recording.diagnostics.items() if key not in MOUNTS},
-        "messages": dict(sorted(recording.counts.items())),
+        "mounts_J": analysis.mount_energy,
+        "loop": analysis.loop,
+        "messages": analysis.messages,
     }

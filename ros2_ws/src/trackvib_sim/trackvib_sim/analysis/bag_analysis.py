@@ -1,0 +1,200 @@
+"""From a recording to its `Analysis`."""
+
+from math import hypot, isnan
+
+import numpy as np
+
+from ..simulation.settings import NANO
+from ..vehicle.vehicle_file import VehicleFileError, parse_vehicle
+from .bag_numbers import Analysis, History
+from .iso2631 import LEAST_RATE
+from .levels import Levels, bins
+from .mean_spectra import MeanSpectra, known_lines
+from .slow_numbers import bin_means, currents, moments, mount_numbers
+from .stretches import common, timing
+from .summary import (
+    AXES,
+    SENSORS,
+    SHORTEST_MEASURING,
+    SHORTEST_SETTLING,
+    TooShort,
+    loop_health,
+    mount_energy,
+    settling_time,
+    start_of,
+)
+from .vibration import band
+
+TOPICS = {"chassis": "chassis/imu", "powertrain": "powertrain/imu", "mounts": "mount_state", "odometry": "odometry"}
+
+
+def parameters_of(recording, node):
+    """Return the parameters of a node by its name without namespace, as text; empty if the bag does not tell them."""
+    return next((told for name, told in recording.provenance.items() if name.endswith(f"/{node}")), {})
+
+
+def settling_of(recording):
+    """Return the time [s] that the recorded run settles, by the parameters of its nodes; the shortest if not told."""
+    road, simulator = (parameters_of(recording, node) for node in ("road_excitation", "simulator"))
+    try:
+        return settling_time(float(simulator["speed"]), float(road["level_until"]) + float(road["fade"]))
+    except (KeyError, ValueError):
+        return SHORTEST_SETTLING
+
+
+def analyse(recording, settle=None, follow=lambda done, total: None):
+    """Return the `Analysis` of a `bags.recording.Recording`.
+
+    Parameters
+    ----------
+    recording : Recording
+    settle : float, optional
+        Time from the start that does not count, s; by default `settling_of`.
+    follow : callable
+        Is told now and then how many samples of how many have been looked at.
+
+    Raises
+    ------
+    TooShort
+        No stretch without gaps leaves a second to be measured.
+    ValueError
+        The sensors differ in their rates, or their stamps cannot be a time base.
+    """
+    settle = settling_of(recording) if settle is None else settle
+    begin, loop = start_of(recording), loop_health(recording)
+    timings = {
+        end: timing(getattr(recording, part).stamp, begin)
+        for part, end in TOPICS.items()
+        if getattr(recording, part) is not None
+    }
+    stretches, period = _stretches(recording, timings, begin, settle)
+    rate = NANO / period
+    last = int(min(recording.chassis.stamp[-1], recording.powertrain.stamp[-1]))
+    parts = bins(begin, last)
+    sensors, spectra, levels = _measure(recording, stretches, rate, parts, follow)
+    settled = begin + round(settle * NANO)
+    speed = _speed(recording, settled)
+    engine_speed, lines, why = _lines(recording, spectra, speed)
+    return Analysis(
+        bag=str(recording.path),
+        begin=begin,
+        duration=(last - begin) / NANO,
+        settle=settle,
+        measured=sum(stretch.size - stretch.measured for stretch in stretches) / rate,
+        rate=rate,
+        band=band(rate),
+        speed=float(speed.mean[0]),
+        speed_deviation=float(speed.deviation[0]),
+        engine_speed=engine_speed,
+        sensors=sensors,
+        total_weighted={
+            sensor: hypot(*(numbers.rms_weighted for numbers in axes.values())) for sensor, axes in sensors.items()
+        },
+        lines=lines,
+        mounts={} if recording.mounts is None else mount_numbers(recording.mounts, settled),
+        demand={} if recording.answers is None else currents(*recording.answers, settled),
+        mount_energy=None if (told := mount_energy(recording)) is None else told._asdict(),
+        loop=loop,
+        messages=dict(sorted(recording.counts.items())),
+        timing={end: found for end, (found, _) in timings.items()},
+        spectra=spectra,
+        history=_history(recording, parts, levels),
+        notes=(*_notes(recording, timings, rate), *why),
+    )
+
+
+def _stretches(recording, timings, begin, settle):
+    """Return the `Stretch`es that count and the sensors' period [ns]."""
+    stamps = [getattr(recording, sensor).stamp for sensor in SENSORS]
+    chassis, powertrain = (timings[TOPICS[sensor]] for sensor in SENSORS)
+    if abs(chassis[0].period - powertrain[0].period) > 1e-3 * chassis[0].period:
+        raise ValueError(
+            f"chassis/imu comes every {chassis[0].period:g} s and powertrain/imu every {powertrain[0].period:g} s, "
+            "must be the same"
+        )
+    period = chassis[0].period * NANO
+    breaks = (chassis[1], powertrain[1])
+    found = common(stamps, breaks, period, begin, settle, SHORTEST_SETTLING, SHORTEST_MEASURING)
+    if not found:
+        length = min(stamp[-1] for stamp in stamps) - begin
+        needed = f"{settle:g} s of settling and {SHORTEST_MEASURING:g} s to measure without a gap in either sensor"
+        raise TooShort(
+            f"the run is {length / NANO:g} s long, RMS values need {settle + SHORTEST_MEASURING:g} s ({needed})"
+        )
+    return found, period
+
+
+def _measure(recording, stretches, rate, parts, follow):
+    """Return the numbers of both sensors, the `Spectra`, and the `Levels` by sensor."""
+    levels, spectra = {sensor: Levels(rate, parts) for sensor in SENSORS}, MeanSpectra(rate)
+    total, done = len(SENSORS) * sum(stretch.size for stretch in stretches), 0
+    for stretch in stretches:
+        counting = []
+        for sensor, first in zip(SENSORS, stretch[:2], strict=True):
+            of_sensor = getattr(recording, sensor)
+            stamp, acceleration, _ = (column[first : first + stretch.size] for column in of_sensor)
+            for looked_at in levels[sensor].add(stamp, acceleration, stretch.measured):
+                follow(done + looked_at, total)
+            done += stretch.size
+            counting.append(acceleration[stretch.measured :])
+        spectra.add(*counting)
+    sensors = {sensor: dict(zip(AXES, levels[sensor].numbers(), strict=True)) for sensor in SENSORS}
+    return sensors, spectra.spectra(), levels
+
+
+def _speed(recording, settled):
+    odometry = recording.odometry
+    if odometry is None:
+        return moments(np.empty(0), np.empty((0, 1)), settled)
+    return moments(odometry.stamp, odometry.speed[:, None], settled)
+
+
+def _lines(recording, spectra, speed):
+    """Return the engine's speed [r/min], the `Line`s, and why there are fewer."""
+    why, engine_speed = [], parameters_of(recording, "simulator").get("engine_speed", "nan")
+    engine_speed = float(engine_speed)
+    if recording.odometry is None:
+        why.append("no odometry in the bag: no speed, no levels of link passing")
+    if isnan(engine_speed):
+        why.append("the bag does not tell the engine's speed: no levels of its orders")
+    try:
+        vehicle = parse_vehicle(recording.vehicle or "", "vehicle description in the bag")
+    except VehicleFileError as error:
+        reason = str(error).splitlines()[0] if recording.vehicle else "no vehicle description in the bag"
+        return engine_speed, (), [*why, f"{reason}: no levels of link passing and engine orders"]
+    mean, deviation = float(speed.mean[0]), float(speed.deviation[0])
+    lines = known_lines(spectra, mean, deviation, vehicle.tracks.pitch, engine_speed, vehicle.engine.orders)
+    return engine_speed, lines, why
+
+
+def _history(recording, parts, levels):
+    """Return the `History` over some bins."""
+    rms, weighted = zip(*(levels[sensor].history() for sensor in SENSORS), strict=True)
+    mounts, odometry = recording.mounts, recording.odometry
+    nothing = np.full((parts.count, 2), np.nan)
+    current, power, travel, speed = nothing, nothing, nothing, nothing[:, 0]
+    if mounts is not None:
+        current, power = (bin_means(parts, mounts.stamp, each)[0] for each in (mounts.current, mounts.dissipated_power))
+        travel = bin_means(parts, mounts.stamp, mounts.deflection[:, :, 2])[1]
+    if odometry is not None:
+        speed = bin_means(parts, odometry.stamp, odometry.speed[:, None])[0][:, 0]
+    by_sensor = (dict(zip(SENSORS, each, strict=True)) for each in (rms, weighted))
+    return History(parts.middle, *by_sensor, speed, current, power, travel)
+
+
+def _notes(recording, timings, rate):
+    """Return what was found wrong, in sentences."""
+    notes = []
+    for end, (found, _) in timings.items():
+        counts = {
+            f"{found.gap_count} gaps, in which {found.missing} samples are missing": found.gap_count,
+            f"{found.repeated} samples with the stamp of the one before": found.repeated,
+            f"{found.backward} samples older than the one before": found.backward,
+        }
+        notes += [f"{end}: {text}" for text, count in counts.items() if count]
+    if rate < LEAST_RATE:
+        notes.append(f"sampling rate is {rate:g} Hz, below {LEAST_RATE:g} Hz: no weighted values of ISO 2631-1")
+    notes += [f"no {end} in the bag" for part, end in TOPICS.items() if getattr(recording, part) is None]
+    if recording.answers is None:
+        notes.append("no coil_current in the bag")
+    return notes

@@ -1,0 +1,143 @@
+"""Levels of both sensors over stretches of any length, in blocks: memory is that of a block.
+
+A block is filtered with so much before and after it that the filters have forgotten where that begins; the numbers are
+those of the whole stretch filtered in one go.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..simulation.settings import NANO
+from .bag_numbers import AxisNumbers
+from .iso2631 import LEAST_RATE, weighted
+from .stretches import blocks
+from .vibration import band_limited
+
+BLOCK = 120.0  # s
+MARGIN = 20.0  # s; the slowest filter has fallen by exp(-35) then
+RUNNING = 1.0  # s, over which a running RMS is taken
+WEIGHTINGS = ("Wd", "Wd", "Wk")  # along x, y, z
+BINS = 3600  # of a history, at most
+
+
+class Bins(NamedTuple):
+    """Equal parts of the time since the start of a bag, of whole seconds."""
+
+    begin: int  # ns
+    width: int  # ns
+    count: int
+
+    @property
+    def middle(self):
+        """Middle of each bin, s from the start."""
+        return (np.arange(self.count) + 0.5) * (self.width / NANO)
+
+    def sums(self, stamp, values):
+        """Return how many samples (n,) are in each bin, and the sums (n, m) of their values (k, m)."""
+        # a stamp is the end of the period that a sample is of
+        index = (stamp - self.begin - 1) // self.width
+        inside = (index >= 0) & (index < self.count)
+        index, values = index[inside], values[inside]
+        columns = [np.bincount(index, column, self.count) for column in values.T]
+        return np.bincount(index, minlength=self.count), np.stack(columns, axis=1)
+
+
+def bins(begin, last):
+    """Return the `Bins` of the time [ns] from `begin` to `last`: seconds, or longer ones of a long bag."""
+    length = max(last - begin, 1)
+    width = -(-length // (BINS * NANO)) * NANO
+    return Bins(begin, width, -(-length // width))
+
+
+class Levels:
+    """What has been summed up of one sensor."""
+
+    def __init__(self, rate, parts):
+        self._rate, self._bins = rate, parts
+        self._count = 0
+        self._origin = None
+        self._raw, self._raw_squared, self._limited = np.zeros((3, 3))
+        self._squared, self._fourth = np.zeros((2, 3))
+        self._peak, self._weighted_peak, self._running = np.zeros((3, 3))
+        self._in_bin = np.zeros(parts.count)
+        self._history, self._weighted_history = np.zeros((2, parts.count, 3))
+
+    def add(self, stamp, acceleration, measured):
+        """Add a stretch, and say after each block how much of it is done.
+
+        Parameters
+        ----------
+        stamp : (k,) int
+            ns
+        acceleration : (k, 3) array
+            Specific force, m/s^2.
+        measured : int
+            How many samples are passed before they count.
+        """
+        margin, running = round(MARGIN * self._rate), round(RUNNING * self._rate)
+        for block in blocks(len(stamp), round(BLOCK * self._rate)):
+            begin = max(block.start - margin, 0)
+            around = np.array(acceleration[begin : block.stop + margin])
+            limited = band_limited(around, self._rate)
+            perceived = self._perceived(around)
+            inner = slice(block.start - begin, block.stop - begin)
+            count, sums = self._bins.sums(stamp[block], np.square(np.hstack((limited[inner], perceived[inner]))))
+            self._in_bin += count
+            self._history += sums[:, :3]
+            self._weighted_history += sums[:, 3:]
+            first = max(block.start, measured) - begin
+            if first < inner.stop:
+                self._measure(*(each[first : inner.stop] for each in (around, limited, perceived)))
+                before = max(first + 1 - running, measured - begin)
+                self._run(np.square(perceived[before : inner.stop]), running)
+            yield block.stop
+
+    def _perceived(self, acceleration):
+        if self._rate < LEAST_RATE:
+            return np.full_like(acceleration, np.nan)
+        columns = [weighted(column, name, self._rate) for column, name in zip(acceleration.T, WEIGHTINGS, strict=True)]
+        return np.stack(columns, axis=1)
+
+    def _measure(self, raw, limited, perceived):
+        if self._origin is None:
+            self._origin = raw[0]  # sums of squares about some typical value keep their digits
+        raw, squared = raw - self._origin, np.square(perceived)
+        self._count += len(raw)
+        self._raw += raw.sum(axis=0)
+        self._raw_squared += np.square(raw).sum(axis=0)
+        self._limited += np.square(limited).sum(axis=0)
+        self._squared += squared.sum(axis=0)
+        self._fourth += np.square(squared).sum(axis=0)
+        self._peak = np.maximum(self._peak, np.abs(limited).max(axis=0))
+        self._weighted_peak = np.maximum(self._weighted_peak, np.abs(perceived).max(axis=0))
+
+    def _run(self, squared, running):
+        total = np.cumsum(squared, axis=0)
+        total[running:] -= total[:-running].copy()
+        if len(total) >= running:
+            self._running = np.maximum(self._running, total[running - 1 :].max(axis=0))
+
+    def numbers(self):
+        """Return the `AxisNumbers` of x, y and z."""
+        n, rate = self._count, self._rate
+        mean = self._raw / n
+        rms_weighted = np.sqrt(self._squared / n)
+        with np.errstate(invalid="ignore"):  # the crest of nothing is nan
+            columns = (
+                self._origin + mean,
+                np.sqrt(np.maximum(self._raw_squared / n - mean**2, 0.0)),
+                np.sqrt(self._limited / n),
+                self._peak,
+                rms_weighted,
+                self._weighted_peak / rms_weighted,
+                np.sqrt(self._running / round(RUNNING * rate)),
+                (self._fourth / rate) ** 0.25,
+            )
+        return [AxisNumbers(*map(float, numbers)) for numbers in zip(*columns, strict=True)]
+
+    def history(self):
+        """Return the band-limited and the weighted RMS (n, 3) in each bin."""
+        with np.errstate(invalid="ignore"):
+            count = np.where(self._in_bin > 0, self._in_bin, np.nan)[:, None]
+            return np.sqrt(self._history / count), np.sqrt(self._weighted_history / count)

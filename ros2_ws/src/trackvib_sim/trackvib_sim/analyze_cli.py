@@ -1,0 +1,28 @@
+"""The command line's `trackvib analyze`."""
+
+import sys
+
+import click
+
+from .option_types import FiniteRange
+
+
+@click.command()
+@click.argument("bags", nargs=-1, required=True, metavar="BAG...", type=click.Path())
+@click.option("--settle", type=FiniteRange(0.0, 1e6), default=None, metavar="S",
+              help="Time from the start of each bag that does not count, in s; 2 s never do.  [default: until the "
+                   "recorded run has settled, by its parameters]")
+@click.option("--out", type=click.Path(file_okay=False), default=None,
+              help="Folder to make for the results.  [default: analyses/<time>]")
+def analyze(bags, settle, out):
+    """Turn bags into numbers: RMS, ISO 2631-1, spectra, mounts, currents, as JSON, CSV and Parquet."""
+    from .bag_evaluation import EvaluationError, perform  # imported late: --help need not wait for it
+
+    try:
+        perform(bags, settle, out)
+    except EvaluationError as error:
+        click.echo(f"error: {error}", err=True)
+        sys.exit(1)
+    except KeyboardInterrupt:
+        click.echo("interrupted, nothing is left", err=True)
+        sys.exit(130)
