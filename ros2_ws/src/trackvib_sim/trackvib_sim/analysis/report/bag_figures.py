@@ -9,6 +9,7 @@ from ..summary import AXES, SENSORS
 from .figure_style import (
     AXIS_COLOURS,
     AXIS_NAMES,
+    RATIO,
     SENSOR_COLOURS,
     SIDE_COLOURS,
     line,
@@ -18,9 +19,8 @@ from .figure_style import (
 )
 
 LONG = 30  # bins, from which levels along the bag tell more than the histories
-RANGE = 70.0  # dB below the greatest level that a spectrogram tells apart
-LOOP_WIDTH = 1.0
-_DENSITY = ((0.0, "rgba(128,128,128,0.12)"), (1.0, "rgba(128,128,128,0.75)"))
+RANGE = 50.0  # dB below the greatest level that a spectrogram tells apart
+_DENSITY = ((0.0, "rgba(128,128,128,0.2)"), (1.0, "rgba(128,128,128,0.95)"))
 
 
 def histories(excerpt):
@@ -79,7 +79,7 @@ def transmission(excerpt):
             for column, axis in enumerate(AXES)
         ]
 
-    ratio = over_frequency(traces(found.transmissibility), excerpt.analysis, "Transmissibility", "|H1|, powertrain / chassis")
+    ratio = over_frequency(traces(found.transmissibility), excerpt.analysis, "Transmissibility", RATIO, ticks="D2")
     alike = over_frequency(traces(found.coherence), excerpt.analysis, "Coherence", "coherence, -", logarithmic=False)
     alike.update_yaxes(range=(0.0, 1.02))
     return [ratio, alike]
@@ -119,7 +119,7 @@ def _loop(loop, side, unit):
     density = go.Heatmap(
         x=loop.across, y=loop.force, z=loop.density, colorscale=_DENSITY, showscale=False, hoverinfo="skip"
     )
-    figure = go.Figure((density, line(loop.line, "1 s", SIDE_COLOURS[side], width=LOOP_WIDTH)))
+    figure = go.Figure((density, line(loop.line, "1 s", SIDE_COLOURS[side])))
     styled(figure, 340, f"{side.capitalize()} mount, force over {unit.split(',')[0]}")
     figure.update_layout(showlegend=False, margin={"t": 40})
     figure.update_xaxes(title_text=unit, zeroline=False)

@@ -4,7 +4,7 @@ import plotly.graph_objects as go
 
 from ..bag_numbers import SIDES
 from ..summary import AXES, SENSORS
-from .figure_style import AXIS_NAMES, BAG_COLOURS, BAG_DASHES, line, over_frequency, plain, settling, styled
+from .figure_style import AXIS_NAMES, BAG_COLOURS, BAG_DASHES, RATIO, line, over_frequency, plain, settling, styled
 
 
 def _look(index):
@@ -38,7 +38,7 @@ def spectra(excerpts, names):
     """Power spectral densities: a figure a sensor and axis. Lines are those of the first bag."""
     return [
         over_frequency(
-            _overlay(excerpts, names, lambda each, s=sensor, c=column: _spectrum(each.analysis.spectra.psd[s], each, c)),
+            _spectrum(excerpts, names, column, lambda found, s=sensor: found.psd[s]),
             excerpts[0].analysis,
             f"{sensor.capitalize()}, {AXIS_NAMES[axis]}",
             "PSD, (m/s²)²/Hz",
@@ -52,17 +52,22 @@ def transmissibilities(excerpts, names):
     """Transmissibility from chassis to powertrain: a figure an axis."""
     return [
         over_frequency(
-            _overlay(excerpts, names, lambda each, c=column: _spectrum(each.analysis.spectra.transmissibility, each, c)),
+            _spectrum(excerpts, names, column, lambda found: found.transmissibility),
             excerpts[0].analysis,
             AXIS_NAMES[axis],
-            "|H1|, powertrain / chassis",
+            RATIO,
+            ticks="D2",
         )
         for column, axis in enumerate(AXES)
     ]
 
 
-def _spectrum(values, excerpt, column):
-    return excerpt.analysis.spectra.frequency[1:], values[1:, column]
+def _spectrum(excerpts, names, column, values):
+    def points(excerpt):
+        found = excerpt.analysis.spectra
+        return found.frequency[1:], values(found)[1:, column]
+
+    return _overlay(excerpts, names, points)
 
 
 def histories(excerpts, names):

@@ -13,7 +13,7 @@ from .thinning import thinned
 
 WINDOW = 0.5  # s of a spectrogram: bins of 2 Hz
 COLUMNS = 300  # of a spectrogram, at most
-CELLS = 60  # along each side of a map of density
+CELLS = 40  # along each side of a map of density
 EXCERPT = 1.0  # s of a mount's loop that is drawn as a line
 TICKS = 2.5  # periods, beyond which a line through samples is broken
 VERTICAL = AXES.index("z")

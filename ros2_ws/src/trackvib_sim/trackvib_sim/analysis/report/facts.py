@@ -24,7 +24,7 @@ def facts(excerpt):
         ("speed", f"{found.speed:.3g} m/s, standard deviation {found.speed_deviation:.2g} m/s; "
                   f"wanted {of('simulator', 'speed')} m/s"),
         ("engine", f"{found.engine_speed:.5g} r/min"),
-        ("length", f"{found.duration:.6g} s; measured are {found.measured:.6g} s, after {found.settle:.3g} s of settling"),
+        ("length", f"{found.duration:.6g} s; {found.measured:.6g} s count, after {found.settle:.3g} s of settling"),
         ("sensors", f"{found.rate:.6g} Hz; RMS values from {found.band[0]:g} to {found.band[1]:g} Hz"),
         ("bag", found.bag),
     ]  # fmt: skip

@@ -13,6 +13,7 @@ SIDE_COLOURS = {"left": "#2a9d8f", "right": "#b0508f"}
 BAG_COLOURS = ("#1b9e77", "#cc5a9b", "#d99a1c", "#4aa3df", "#8c6bb1", "#808080")
 BAG_DASHES = ("solid", "dash", "dot")  # for more bags than colours
 AXIS_NAMES = dict(zip("xyz", NAMES, strict=True))
+RATIO = "|H1|, powertrain / chassis"
 GRID = "rgba(128,128,128,0.28)"
 LINE_COLOURS = {"link passing": "rgba(128,128,128,0.9)", "engine order": "rgba(190,140,20,0.95)"}
 _LONGEST = 48  # characters of a name in a legend
@@ -35,6 +36,7 @@ def styled(figure, height, title=None):
         font={"family": "system-ui, sans-serif", "size": 12},
         paper_bgcolor="rgba(0,0,0,0)",
         plot_bgcolor="rgba(0,0,0,0)",
+        modebar={"bgcolor": "rgba(0,0,0,0)", "color": "rgba(128,128,128,0.7)", "activecolor": "rgba(128,128,128,1.0)"},
         legend={"orientation": "h", "x": 0.0, "y": 1.0, "yanchor": "bottom", "bgcolor": "rgba(0,0,0,0)"},
     )  # fmt: skip
     lines = {"gridcolor": GRID, "zerolinecolor": GRID, "linecolor": GRID, "showline": True, "mirror": True}
@@ -49,28 +51,38 @@ def line(points, name, colour, **options):
     return go.Scatter(x=points[0], y=points[1], name=name, mode="lines", line=style, **options)
 
 
-def over_frequency(traces, analysis, title, unit, logarithmic=True):
-    """Return a figure of lines over the logarithm of the frequency, known lines of the spectrum marked."""
+def over_frequency(traces, analysis, title, unit, logarithmic=True, ticks=1):
+    """Return a figure of lines over the logarithm of the frequency, known lines of the spectrum marked.
+
+    `ticks` of a logarithmic ordinate are as in Plotly: 1 for one a decade, "D2" for 1, 2 and 5.
+    """
     figure = styled(go.Figure(traces), 340, title)
     top = 0.5 * analysis.rate
-    ticks = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000]
+    hertz = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000]
     low, high = log10(LOWEST_FREQUENCY), log10(max(top, 2.0 * LOWEST_FREQUENCY))
-    figure.update_xaxes(type="log", range=(low, high), tickvals=ticks, title_text="frequency, Hz")
+    figure.update_xaxes(type="log", range=(low, high), tickvals=hertz, title_text="frequency, Hz")
     figure.update_yaxes(title_text=unit)
     if logarithmic:
-        figure.update_yaxes(type="log", exponentformat="power", dtick=1)
+        figure.update_yaxes(type="log", exponentformat="power", dtick=ticks)
     for each in analysis.lines:
-        kind, _, number = each.name.rpartition(" ")
-        passing = kind == "link passing"
-        words = f"order {number}" if not passing else "v/p" if number == "1" else f"{number} v/p"
-        label = {"text": words, "textposition": "end" if passing else "start", "textangle": -90, "font": {"size": 10}}
-        colour = LINE_COLOURS.get(kind, GRID)
         if LOWEST_FREQUENCY <= each.frequency <= top:
-            figure.add_shape(
-                type="line", x0=each.frequency, x1=each.frequency, y0=0.0, y1=1.0, yref="paper", layer="below",
-                line={"color": colour, "width": 1, "dash": "dot" if passing else "dash"}, label=label,
-            )  # fmt: skip
+            _mark(figure, each)
     return figure
+
+
+def _mark(figure, marked):
+    kind, _, number = marked.name.rpartition(" ")
+    passing = kind == "link passing"
+    words = f"order {number}" if not passing else "v/p" if number == "1" else f"{number} v/p"
+    style = {"color": LINE_COLOURS[kind], "width": 1, "dash": "dot" if passing else "dash"}
+    figure.add_shape(
+        type="line", x0=marked.frequency, x1=marked.frequency, y0=0.0, y1=1.0, yref="paper", layer="below", line=style
+    )
+    # names stand inside, upright along their lines: of link passing at the top, of the engine at the bottom
+    figure.add_annotation(
+        x=log10(marked.frequency), y=1.0 if passing else 0.0, yref="paper", text=words, textangle=-90, showarrow=False,
+        xanchor="right", yanchor="top" if passing else "bottom", font_size=10, borderpad=0,
+    )  # fmt: skip
 
 
 def settling(figure, analysis):

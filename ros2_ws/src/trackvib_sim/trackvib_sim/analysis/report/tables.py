@@ -1,7 +1,7 @@
 """The tables of a report as plain text: heads and rows of cells."""
 
 from dataclasses import fields
-from math import isfinite
+from math import isfinite, nan
 from typing import NamedTuple
 
 from ..bag_numbers import SIDES, AxisNumbers
@@ -18,7 +18,7 @@ _WORDS = {
     "vdv": "VDV",
     "mean": "mean",
 }
-_MOUNT = (  # words, unit, what it is of a `MountNumbers`, factor
+_MOUNT = (  # words, unit, which number of a `MountNumbers`
     ("deflection, mean", "mm", lambda mount: 1e3 * mount.axes["z"].deflection_mean),
     ("travel, RMS", "mm", lambda mount: 1e3 * mount.axes["z"].travel_rms),
     ("travel, peak", "mm", lambda mount: 1e3 * mount.axes["z"].travel_peak),
@@ -33,6 +33,7 @@ _MOUNT = (  # words, unit, what it is of a `MountNumbers`, factor
     ("power dissipated, mean", "W", lambda mount: mount.power_dissipated),
 )
 _UNITS = {field.name: field.metadata["unit"] for field in fields(AxisNumbers)}
+_COLUMNS = tuple(f"{sensor} {axis}" for axis in AXES for sensor in SENSORS)
 _WORRYING = (
     "lost_chassis", "lost_powertrain", "unanswered", "answered_twice", "late", "duplicate", "early", "not_finite",
     "saturated", "silent_periods", "overruns",
@@ -48,18 +49,23 @@ class Table(NamedTuple):
 
 
 def number(value, digits=4):
-    """Return a number in words; a dash for none."""
-    return f"{value:.{digits}g}" if isfinite(value) else "–"
+    """Return a number with so many digits that count; a dash for none."""
+    if not isfinite(value):
+        return "–"
+    words = f"{value:#.{digits}g}" if abs(value) < 10.0**digits else f"{value:.0f}"
+    return words.rstrip(".").replace("-", "−")
 
 
 def change(value, first):
     """Return by how much a number differs from the first one, in words."""
-    return f"{100.0 * (value / first - 1.0):+.1f} %" if isfinite(value) and isfinite(first) and first else "–"
+    if not (isfinite(value) and isfinite(first) and first):
+        return "–"
+    return f"{100.0 * (value / first - 1.0):+.1f} %".replace("-", "−")
 
 
 def accelerations(analysis):
     """Both sensors by axis, and by how much less the powertrain has."""
-    head = ("", "unit", *(f"{sensor} {axis}" for axis in AXES for sensor in SENSORS), *(f"change {axis}" for axis in AXES))
+    head = ("", "unit", *_COLUMNS, *(f"change {axis}" for axis in AXES))
     rows = []
     for name, words in _WORDS.items():
         of = {sensor: [getattr(analysis.sensors[sensor][axis], name) for axis in AXES] for sensor in SENSORS}
@@ -71,7 +77,7 @@ def accelerations(analysis):
 
 def lines(analysis):
     """What lies in the bands about known lines of the spectrum."""
-    head = ("", "Hz", "band, Hz", *(f"{sensor} {axis}" for axis in AXES for sensor in SENSORS))
+    head = ("", "Hz", "band, Hz", *_COLUMNS)
     rows = [
         (
             line.name,
@@ -85,12 +91,10 @@ def lines(analysis):
 
 
 def mounts(analysis):
-    """Both mounts, along the vertical."""
-    rows = [
-        (words, unit, *(number(of(analysis.mounts[side])) for side in SIDES if side in analysis.mounts))
-        for words, unit, of in _MOUNT
-    ]
-    return Table(("vertical", "unit", *(side for side in SIDES if side in analysis.mounts)), rows, 2)
+    """Both mounts, along the vertical; without mount states no rows."""
+    found = list(analysis.mounts.values())
+    rows = [(words, unit, *(number(of(mount)) for mount in found)) for words, unit, of in _MOUNT] if found else []
+    return Table(("vertical", "unit", *analysis.mounts), rows, 2)
 
 
 def loop(analysis):
@@ -146,8 +150,7 @@ def comparison(analyses, names):
         add(f"{sensor}, weighted, all axes", "m/s²", lambda a, s=sensor: a.total_weighted[s])
     for side in SIDES:
         for words, unit, of in _MOUNT:
-            lacking = float("nan")
-            add(f"{side} mount, {words}", unit, lambda a, s=side, f=of: f(a.mounts[s]) if s in a.mounts else lacking)
+            add(f"{side} mount, {words}", unit, lambda a, s=side, f=of: f(a.mounts[s]) if s in a.mounts else nan)
     return Table(("", "unit", *names), rows, 2)
 
 
