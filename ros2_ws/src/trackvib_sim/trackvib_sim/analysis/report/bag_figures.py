@@ -9,11 +9,12 @@ from ..summary import AXES, SENSORS
 from .figure_style import (
     AXIS_COLOURS,
     AXIS_NAMES,
-    RATIO,
     SENSOR_COLOURS,
     SIDE_COLOURS,
+    density,
     line,
     over_frequency,
+    ratio,
     settling,
     styled,
 )
@@ -56,14 +57,13 @@ def spectra(excerpt):
     """Power spectral densities of both sensors: a figure an axis."""
     found = excerpt.analysis.spectra
     return [
-        over_frequency(
+        density(
             [
                 line((found.frequency[1:], found.psd[sensor][1:, column]), sensor, SENSOR_COLOURS[sensor])
                 for sensor in SENSORS
             ],
             excerpt.analysis,
             AXIS_NAMES[axis],
-            "PSD, (m/s²)²/Hz",
         )
         for column, axis in enumerate(AXES)
     ]
@@ -79,10 +79,9 @@ def transmission(excerpt):
             for column, axis in enumerate(AXES)
         ]
 
-    ratio = over_frequency(traces(found.transmissibility), excerpt.analysis, "Transmissibility", RATIO, ticks="D2")
-    alike = over_frequency(traces(found.coherence), excerpt.analysis, "Coherence", "coherence, -", logarithmic=False)
+    alike = over_frequency(traces(found.coherence), excerpt.analysis, "Coherence", "coherence, -")
     alike.update_yaxes(range=(0.0, 1.02))
-    return [ratio, alike]
+    return [ratio(traces(found.transmissibility), excerpt.analysis, "Transmissibility"), alike]
 
 
 def spectrograms(excerpt):
@@ -116,10 +115,10 @@ def mount_loops(excerpt):
 
 
 def _loop(loop, side, unit):
-    density = go.Heatmap(
+    cells = go.Heatmap(
         x=loop.across, y=loop.force, z=loop.density, colorscale=_DENSITY, showscale=False, hoverinfo="skip"
     )
-    figure = go.Figure((density, line(loop.line, "1 s", SIDE_COLOURS[side])))
+    figure = go.Figure((cells, line(loop.line, "1 s", SIDE_COLOURS[side])))
     styled(figure, 340, f"{side.capitalize()} mount, force over {unit.split(',')[0]}")
     figure.update_layout(showlegend=False, margin={"t": 40})
     figure.update_xaxes(title_text=unit, zeroline=False)

@@ -4,7 +4,7 @@ import plotly.graph_objects as go
 
 from ..bag_numbers import SIDES
 from ..summary import AXES, SENSORS
-from .figure_style import AXIS_NAMES, BAG_COLOURS, BAG_DASHES, RATIO, line, over_frequency, plain, settling, styled
+from .figure_style import AXIS_NAMES, BAG_COLOURS, BAG_DASHES, density, line, plain, ratio, settling, styled
 
 
 def _look(index):
@@ -37,11 +37,10 @@ def rms_bars(excerpts, names):
 def spectra(excerpts, names):
     """Power spectral densities: a figure a sensor and axis. Lines are those of the first bag."""
     return [
-        over_frequency(
+        density(
             _spectrum(excerpts, names, column, lambda found, s=sensor: found.psd[s]),
             excerpts[0].analysis,
             f"{sensor.capitalize()}, {AXIS_NAMES[axis]}",
-            "PSD, (m/s²)²/Hz",
         )
         for sensor in reversed(SENSORS)
         for column, axis in enumerate(AXES)
@@ -51,12 +50,10 @@ def spectra(excerpts, names):
 def transmissibilities(excerpts, names):
     """Transmissibility from chassis to powertrain: a figure an axis."""
     return [
-        over_frequency(
+        ratio(
             _spectrum(excerpts, names, column, lambda found: found.transmissibility),
             excerpts[0].analysis,
             AXIS_NAMES[axis],
-            RATIO,
-            ticks="D2",
         )
         for column, axis in enumerate(AXES)
     ]

@@ -3,6 +3,7 @@
 from html import escape
 from math import log10
 
+import numpy as np
 import plotly.graph_objects as go
 
 from ..plots import COLOURS, LOWEST_FREQUENCY, NAMES
@@ -13,7 +14,7 @@ SIDE_COLOURS = {"left": "#2a9d8f", "right": "#b0508f"}
 BAG_COLOURS = ("#1b9e77", "#cc5a9b", "#d99a1c", "#4aa3df", "#8c6bb1", "#808080")
 BAG_DASHES = ("solid", "dash", "dot")  # for more bags than colours
 AXIS_NAMES = dict(zip("xyz", NAMES, strict=True))
-RATIO = "|H1|, powertrain / chassis"
+ONE_TWO_FIVE = [float(f"{digit}e{power}") for power in range(-4, 5) for digit in (1, 2, 5)]  # ticks
 GRID = "rgba(128,128,128,0.28)"
 LINE_COLOURS = {"link passing": "rgba(128,128,128,0.9)", "engine order": "rgba(190,140,20,0.95)"}
 _LONGEST = 48  # characters of a name in a legend
@@ -32,7 +33,7 @@ def styled(figure, height, title=None):
         height=height,
         title={"text": title, "x": 0.0, "xref": "container", "xanchor": "left", "y": 1.0, "yanchor": "top",
                "pad": {"t": 8, "l": 8}, "font": {"size": 14}},
-        margin={"l": 62, "r": 12, "t": 56 if title else 34, "b": 46},
+        margin={"l": 62, "r": 12, "t": 66 if title else 34, "b": 46},
         font={"family": "system-ui, sans-serif", "size": 12},
         paper_bgcolor="rgba(0,0,0,0)",
         plot_bgcolor="rgba(0,0,0,0)",
@@ -51,23 +52,32 @@ def line(points, name, colour, **options):
     return go.Scatter(x=points[0], y=points[1], name=name, mode="lines", line=style, **options)
 
 
-def over_frequency(traces, analysis, title, unit, logarithmic=True, ticks=1):
-    """Return a figure of lines over the logarithm of the frequency, known lines of the spectrum marked.
-
-    `ticks` of a logarithmic ordinate are as in Plotly: 1 for one a decade, "D2" for 1, 2 and 5.
-    """
+def over_frequency(traces, analysis, title, unit):
+    """Return a figure of lines over the logarithm of the frequency, known lines of the spectrum marked."""
     figure = styled(go.Figure(traces), 340, title)
     top = 0.5 * analysis.rate
-    hertz = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000]
     low, high = log10(LOWEST_FREQUENCY), log10(max(top, 2.0 * LOWEST_FREQUENCY))
-    figure.update_xaxes(type="log", range=(low, high), tickvals=hertz, title_text="frequency, Hz")
+    figure.update_xaxes(type="log", range=(low, high), tickvals=ONE_TWO_FIVE, title_text="frequency, Hz")
     figure.update_yaxes(title_text=unit)
-    if logarithmic:
-        figure.update_yaxes(type="log", exponentformat="power", dtick=ticks)
     for each in analysis.lines:
         if LOWEST_FREQUENCY <= each.frequency <= top:
             _mark(figure, each)
     return figure
+
+
+def density(traces, analysis, title):
+    """Return a figure of power spectral densities."""
+    figure = over_frequency(traces, analysis, title, "PSD, (m/s²)²/Hz")
+    return figure.update_yaxes(type="log", exponentformat="power", dtick=1)
+
+
+def ratio(traces, analysis, title):
+    """Return a figure of transmissibilities; it shows half to twice at least, so that nothing small looks large."""
+    figure = over_frequency(traces, analysis, title, "|H1|, powertrain / chassis")
+    values = np.concatenate([trace.y for trace in traces])
+    values = values[values > 0.0]  # which leaves nan out, too
+    low, high = min(values.min(initial=0.5), 0.5), max(values.max(initial=2.0), 2.0)
+    return figure.update_yaxes(type="log", range=(log10(0.9 * low), log10(1.1 * high)), tickvals=ONE_TWO_FIVE)
 
 
 def _mark(figure, marked):

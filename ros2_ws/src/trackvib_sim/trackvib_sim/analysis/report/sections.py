@@ -7,7 +7,10 @@ from . import bag_figures, comparison_figures, facts, tables
 
 _WEIGHTED = "Weighted: ISO 2631-1, Wk along z, Wd along x and y."
 _SPECIFIC_FORCE = "Specific force as recorded, +g along z at rest."
-_WELCH = "Welch's method, windows of 1 s. Dotted: links entering the sprockets, v/p. Dashed: orders of the engine"
+_WELCH = (
+    "Welch's method, windows of 1 s. Dotted: links entering the sprockets, v/p and multiples. "
+    "Dashed: orders of the engine"
+)
 
 
 class Section(NamedTuple):
@@ -72,7 +75,7 @@ def of_several(excerpts, names):
             "Numbers",
             f"In brackets the difference to {names[0]}. {_WEIGHTED}",
             [comparison_figures.rms_bars(excerpts, names)],
-            [tables.comparison([excerpt.analysis for excerpt in excerpts], names)],
+            tables.comparison([excerpt.analysis for excerpt in excerpts], names),
         ),
         Section("Spectra", f"{_WELCH}; both of {names[0]}.", comparison_figures.spectra(excerpts, names), [], 3),
         Section("From chassis to powertrain", "", comparison_figures.transmissibilities(excerpts, names), [], 3),

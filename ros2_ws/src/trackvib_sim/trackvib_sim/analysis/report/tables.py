@@ -6,7 +6,6 @@ from typing import NamedTuple
 
 from ..bag_numbers import SIDES, AxisNumbers
 from ..summary import AXES, SENSORS
-from .figure_style import AXIS_NAMES
 
 _WORDS = {
     "rms": "RMS, band-limited",
@@ -32,7 +31,7 @@ _MOUNT = (  # words, unit, which number of a `MountNumbers`
     ("energy dissipated", "J", lambda mount: mount.energy_dissipated),
     ("power dissipated, mean", "W", lambda mount: mount.power_dissipated),
 )
-_UNITS = {field.name: field.metadata["unit"] for field in fields(AxisNumbers)}
+_UNITS = {field.name: field.metadata["unit"].replace("^1.75", "¹·⁷⁵") for field in fields(AxisNumbers)}
 _COLUMNS = tuple(f"{sensor} {axis}" for axis in AXES for sensor in SENSORS)
 _WORRYING = (
     "lost_chassis", "lost_powertrain", "unanswered", "answered_twice", "late", "duplicate", "early", "not_finite",
@@ -112,7 +111,7 @@ def timing(analysis):
     """What the stamps of each topic say."""
     rows = [
         (
-            topic, f"{each.samples}", number(1e3 * each.period), number(each.first, 6), number(each.last, 6),
+            topic, f"{each.samples}", number(1e3 * each.period), f"{each.first:.6g}", f"{each.last:.6g}",
             f"{each.missing}", f"{each.gap_count}", f"{each.repeated}", f"{each.backward}",
         )
         for topic, each in analysis.timing.items()
@@ -124,7 +123,7 @@ def timing(analysis):
 def gaps(analysis, most=50):
     """The first gaps of each topic."""
     rows = [
-        (topic, number(gap.begin, 7), number(gap.length), f"{gap.missing}")
+        (topic, f"{gap.begin:.7g}", f"{gap.length:.4g}", f"{gap.missing}")
         for topic, each in analysis.timing.items()
         for gap in each.gaps[:most]
     ]
@@ -132,26 +131,33 @@ def gaps(analysis, most=50):
 
 
 def comparison(analyses, names):
-    """Numbers of several bags, and by how much they differ from the first one's."""
-    rows = []
-
-    def add(words, unit, of):
-        values = [of(analysis) for analysis in analyses]
-        if any(map(isfinite, values)):
-            told = (f"{number(value)} ({change(value, values[0])})" for value in values[1:])
-            rows.append((words, unit, number(values[0]), *told))
-
-    for quantity in ("rms", "rms_weighted", "vdv", "peak"):
-        for sensor in reversed(SENSORS):
-            for axis in AXES:
-                words = f"{sensor} {AXIS_NAMES[axis]}, {_WORDS[quantity]}"
-                add(words, _UNITS[quantity], lambda a, s=sensor, x=axis, q=quantity: getattr(a.sensors[s][x], q))
-    for sensor in reversed(SENSORS):
-        add(f"{sensor}, weighted, all axes", "m/s²", lambda a, s=sensor: a.total_weighted[s])
+    """Numbers of several bags with their differences to the first one's: a table a quantity, and one a mount."""
+    places = [(sensor, axis) for sensor in reversed(SENSORS) for axis in AXES]
+    found = []
+    for name in ("rms", "rms_weighted", "vdv", "peak"):
+        rows = [
+            (f"{sensor} {axis}", [getattr(analysis.sensors[sensor][axis], name) for analysis in analyses])
+            for sensor, axis in places
+        ]
+        if name == "rms_weighted":
+            for sensor in reversed(SENSORS):
+                rows.append((f"{sensor}, all axes", [analysis.total_weighted[sensor] for analysis in analyses]))
+        found.append(_compared(f"{_WORDS[name]}, {_UNITS[name]}", rows, names))
     for side in SIDES:
-        for words, unit, of in _MOUNT:
-            add(f"{side} mount, {words}", unit, lambda a, s=side, f=of: f(a.mounts[s]) if s in a.mounts else nan)
-    return Table(("", "unit", *names), rows, 2)
+        mounts = [analysis.mounts.get(side) for analysis in analyses]
+        rows = [(f"{words}, {unit}", [of(mount) if mount else nan for mount in mounts]) for words, unit, of in _MOUNT]
+        found.append(_compared(f"{side} mount, vertical", rows, names))
+    return found
+
+
+def _compared(title, rows, names):
+    """Return a table of rows (words, numbers), those left out of which there are no numbers."""
+    cells = [
+        (words, number(values[0]), *(f"{number(value)} ({change(value, values[0])})" for value in values[1:]))
+        for words, values in rows
+        if any(map(isfinite, values))
+    ]
+    return Table((title, *names), cells)
 
 
 def _spaced(key):

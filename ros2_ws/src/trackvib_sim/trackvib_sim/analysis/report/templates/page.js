@@ -9,5 +9,8 @@ const config = {
 for (const [id, { data, layout }] of Object.entries(figures)) {
   Plotly.newPlot(id, data, { ...layout, dragmode: touch ? false : "zoom" }, config);
 }
-// figures have the width of the screen; paper has its own
-matchMedia("print").addEventListener("change", () => Object.keys(figures).forEach((id) => Plotly.Plots.resize(id)));
+// figures have the width of the window; for paper they get that of a page
+const resize = (width) =>
+  Object.keys(figures).forEach((id) => Plotly.relayout(id, width ? { width, autosize: false } : { width: null, autosize: true }));
+addEventListener("beforeprint", () => resize(680));
+addEventListener("afterprint", () => resize(null));
