@@ -1,6 +1,6 @@
 """MCAP files chunk by chunk, and the messages of a chunk as arrays: no Python a message."""
 
-from io import BytesIO
+from io import SEEK_CUR, SEEK_END, BytesIO
 from struct import Struct
 from typing import NamedTuple
 
@@ -49,19 +49,18 @@ def parts(file, metadata):
     """
     if len(file.read(MAGIC_SIZE)) < MAGIC_SIZE:
         raise InvalidMagic(b"")
+    whole = file.seek(0, SEEK_END)
     file.seek(0)
     read_magic(ReadDataStream(file))
     outside, wanted = bytearray(), (Opcode.CHUNK, Opcode.METADATA, Opcode.SCHEMA, Opcode.CHANNEL, Opcode.MESSAGE)
     while len(frame := file.read(_FRAME.size)) == _FRAME.size:
         opcode, length = _FRAME.unpack(frame)
-        if opcode == Opcode.DATA_END:
+        if opcode == Opcode.DATA_END or length > whole - file.tell():  # the end, or the file was cut short here
             break
         if opcode not in wanted:
-            file.seek(length, 1)
+            file.seek(length, SEEK_CUR)
             continue
         record = file.read(length)
-        if len(record) < length:  # the file was cut short here
-            break
         if opcode == Opcode.CHUNK:
             stream, size = get_chunk_data_stream(Chunk.read(_stream(record)), validate_crc=True)
             yield Part(np.frombuffer(stream.read(size), np.uint8), file.tell())

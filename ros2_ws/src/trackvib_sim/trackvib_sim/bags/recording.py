@@ -88,7 +88,8 @@ _COLUMNS = {
 }  # fmt: skip
 _NEEDED = ("chassis/imu", "powertrain/imu")
 _RARE = ("diagnostics", "vehicle_description")
-_READ_ERRORS = (OSError, McapError, ZstdError, SerdeError, ValueError)  # mcap and zstandard raise plain ones as well
+# mcap raises plain ValueErrors as well, lz4 RuntimeErrors
+_READ_ERRORS = (OSError, McapError, ZstdError, SerdeError, ValueError, RuntimeError)
 
 
 def read_recording(path, follow=lambda done, total: None):
@@ -107,21 +108,20 @@ def read_recording(path, follow=lambda done, total: None):
     BagError
         The bag cannot be read, holds no Imu messages of one of the sensors, or those of several vehicles.
     """
-    path = Path(path)
+    path, reading = Path(path), _Reading()
     try:
         # files by name rather than by metadata.yaml, which a bag that was cut short does not have
         files = [path] if path.is_file() else sorted(path.glob("*.mcap"), key=lambda each: (len(each.name), each.name))
-        if not files:
-            raise BagError(f"bag {str(path)!r} {'holds no .mcap file' if path.is_dir() else 'is not there'}")
-        reading = _Reading()
         total, done = sum(file.stat().st_size for file in files), 0
         for file in files:
             reading.read(file, lambda end, before=done: follow(before + end, total))
             done += file.stat().st_size
-        follow(total, total)
-        return reading.recording(path)
     except _READ_ERRORS as error:
         raise BagError(f"bag {str(path)!r} cannot be read: {str(error) or type(error).__name__}") from None
+    if not files:
+        raise BagError(f"bag {str(path)!r} {'holds no .mcap file' if path.is_dir() else 'is not there'}")
+    follow(total, total)
+    return reading.recording(path)
 
 
 class _Reading:
@@ -139,8 +139,10 @@ class _Reading:
             for part in parts(stream, self._provenance):
                 messages = take_apart(part.data, schemas, channels)
                 for channel_id in np.unique(messages.channel).tolist():
-                    channel = channels[channel_id]
-                    schema = schemas[channel.schema_id]
+                    channel = channels.get(channel_id)
+                    schema = schemas.get(channel.schema_id) if channel else None
+                    if schema is None:
+                        raise ValueError(f"messages on channel {channel_id}, which nothing announces")
                     of_channel = messages.channel == channel_id
                     start, size = messages.start[of_channel], messages.size[of_channel]
                     self._counts[channel.topic] += len(start)

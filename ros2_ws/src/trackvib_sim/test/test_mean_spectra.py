@@ -1,0 +1,81 @@
+"""Mean spectra: a known filter between the sensors, noise that has nothing to do with it, sines on known lines."""
+
+import numpy as np
+import pytest
+from scipy import signal
+from trackvib_sim.analysis import mean_spectra
+from trackvib_sim.analysis.mean_spectra import MeanSpectra, known_lines
+from trackvib_sim.analysis.vibration import psd
+
+RATE = 1000.0
+
+
+def spectra_of(chassis, powertrain):
+    """Return the spectra of one stretch."""
+    found = MeanSpectra(RATE)
+    found.add(chassis, powertrain)
+    return found.spectra()
+
+
+@pytest.mark.analytic
+def test_transmissibility_of_a_known_filter():
+    """A resonant filter between the sensors: |H1| is its gain, coherence one; noise of equal power halves coherence.
+
+    With 599 windows, half overlapping, of coherence g^2 the random error of |H1| is sqrt((1 - g^2) / (2 g^2 n)).
+    """
+    random = np.random.default_rng(2)
+    chassis = random.normal(size=(300_000, 3))
+    sections = signal.butter(2, (20.0, 60.0), "bandpass", fs=RATE, output="sos")
+    powertrain = signal.sosfilt(sections, chassis, axis=0)
+    found = spectra_of(chassis, powertrain)
+    gain = np.abs(signal.sosfreqz(sections, found.frequency, fs=RATE)[1])
+    within = (found.frequency > 15.0) & (found.frequency < 90.0)
+    np.testing.assert_allclose(found.transmissibility[within], np.repeat(gain[within, None], 3, axis=1), rtol=0.03)
+    assert found.coherence[within].min() > 0.98
+    noisy = spectra_of(chassis, chassis + random.normal(size=chassis.shape))
+    np.testing.assert_allclose(noisy.coherence[10:490].mean(axis=0), 0.5, atol=0.01)
+    np.testing.assert_allclose(noisy.transmissibility[10:490].mean(axis=0), 1.0, atol=0.01)
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("length", [1000, 1499, 1500, 30_777])
+def test_blocks_do_not_show(monkeypatch, length):
+    """However many windows make a block, the means are scipy's over all of them."""
+    random = np.random.default_rng(3)
+    chassis, powertrain = random.normal(size=(2, length, 3))
+    monkeypatch.setattr(mean_spectra, "BLOCK", 4.0)
+    found = spectra_of(chassis, powertrain)
+    frequency, below = psd(chassis, RATE)
+    cross = signal.csd(chassis, powertrain, fs=RATE, nperseg=1000, axis=0)[1]
+    np.testing.assert_array_equal(found.frequency, frequency)
+    np.testing.assert_allclose(found.psd["chassis"], below, rtol=1e-10)
+    np.testing.assert_allclose(found.psd["powertrain"], psd(powertrain, RATE)[1], rtol=1e-10)
+    np.testing.assert_allclose(found.transmissibility, np.abs(cross) / below, rtol=1e-9)
+
+
+@pytest.mark.analytic
+def test_lines_hold_the_level_of_their_sines():
+    """At 10 m/s and 125 mm links pass with 80 Hz; the engine's order 2 at 1650 r/min is 55 Hz. Each has its sine."""
+    time = np.arange(60_000) / RATE
+    amplitudes = {80.0: 2.0, 160.0: 1.0, 240.0: 0.5, 55.0: 4.0}
+    wave = sum(a * np.sin(2.0 * np.pi * f * time) for f, a in amplitudes.items())
+    chassis = np.outer(wave, (1.0, 2.0, 3.0))
+    lines = known_lines(spectra_of(chassis, 0.5 * chassis), 10.0, 0.0, 0.125, 1650.0, (0.05, 2.0, 50.0))
+    # order 0.05 lies below what can be told from rest, order 50 beyond half the rate
+    assert [line.name for line in lines] == ["link passing 1", "link passing 2", "link passing 3", "engine order 2"]
+    for line in lines:
+        assert line.frequency == pytest.approx(min(amplitudes, key=lambda f, own=line.frequency: abs(f - own)))
+        level = amplitudes[round(line.frequency)] / np.sqrt(2.0)
+        for axis, factor in zip("xyz", (1.0, 2.0, 3.0), strict=True):
+            assert line.rms["chassis"][axis] == pytest.approx(factor * level, rel=1e-6)
+            assert line.rms["powertrain"][axis] == pytest.approx(0.5 * factor * level, rel=1e-6)
+
+
+@pytest.mark.analytic
+def test_the_band_widens_with_an_unsteady_speed():
+    """Two deviations of the speed to either side, times the harmonic, beside what the window spreads."""
+    spectra = spectra_of(*np.random.default_rng(1).normal(size=(2, 5000, 3)))
+    first, second, _ = known_lines(spectra, 10.0, 0.25, 0.125, float("nan"), (2.0,))
+    assert (first.low, first.high) == (80.0 - 6.0, 80.0 + 6.0)
+    assert (second.low, second.high) == (160.0 - 10.0, 160.0 + 10.0)
+    assert known_lines(spectra, 0.0, 0.0, 0.125, 0.0, (2.0,)) == ()
