@@ -150,6 +150,24 @@ def test_summary_and_picture(first):
     assert picture.startswith(b"\x89PNG") and len(picture) > 50_000
 
 
+def test_analysis_of_the_bag_agrees_with_the_summary(first, tmp_path):
+    """`trackvib analyze` gives the run's own numbers again, and leaves them as tables."""
+    out = tmp_path / "out"
+    command = [sys.executable, "-m", "trackvib_sim.cli", "analyze", str(first[0] / "bag"), "--out", str(out)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stdout + done.stderr
+    summary = json.loads((first[0] / "summary.json").read_text())
+    (found,) = json.loads((out / "numbers.json").read_text())["bags"]
+    rms = {sensor: {axis: n["rms"] for axis, n in axes.items()} for sensor, axes in found["sensors"].items()}
+    assert rms == summary["rms_mps2"]
+    assert (found["loop"], found["mount_energy"]) == (summary["loop"], summary["mounts_J"])
+    assert found["settle"] == summary["settled_after_s"] and found["notes"] == []
+    lines = {line["name"]: line["frequency"] for line in found["lines"]}
+    assert lines["link passing 1"] == pytest.approx(87.0, rel=0.01) and lines["engine order 2"] == 55.0
+    assert {"numbers.csv", "spectra.parquet", "history.parquet"} <= {p.name for p in out.iterdir()}
+    assert f"{rms['powertrain']['z']:.3f}" in done.stdout and "link passing 1" in done.stdout
+
+
 def test_a_folder_is_never_overwritten(first):
     """A second run into the same folder is refused and leaves it as it was."""
     before = sorted(Path(first[0]).rglob("*"))

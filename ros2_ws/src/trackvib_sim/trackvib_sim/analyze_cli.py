@@ -24,5 +24,5 @@ def analyze(bags, settle, out):
         click.echo(f"error: {error}", err=True)
         sys.exit(1)
     except KeyboardInterrupt:
-        click.echo("interrupted, nothing is left", err=True)
+        click.echo("interrupted", err=True)
         sys.exit(130)

@@ -187,9 +187,9 @@ def _notes(recording, timings, rate):
     notes = []
     for end, (found, _) in timings.items():
         counts = {
-            f"{found.gap_count} gaps, in which {found.missing} samples are missing": found.gap_count,
-            f"{found.repeated} samples with the stamp of the one before": found.repeated,
-            f"{found.backward} samples older than the one before": found.backward,
+            f"gaps: {found.gap_count}, in which {found.missing} samples are missing": found.gap_count,
+            f"samples with the stamp of the one before: {found.repeated}": found.repeated,
+            f"samples older than the one before: {found.backward}; nothing counts from there on": found.backward,
         }
         notes += [f"{end}: {text}" for text, count in counts.items() if count]
     if rate < LEAST_RATE:
