@@ -22,7 +22,8 @@ def thinned(time, values, longest_step, most=MOST):
 def _extremes(values, most):
     width = -(-2 * len(values) // most)
     whole = len(values) // width * width
-    parts = values[:whole].reshape(-1, width)
-    begin = np.arange(0, whole, width)
-    rest = np.arange(whole, len(values))  # fewer than a part
-    return np.unique(np.concatenate(([0], begin + parts.argmin(axis=1), begin + parts.argmax(axis=1), rest)))
+    parts, begin = values[:whole].reshape(-1, width), np.arange(0, whole, width)
+    kept = [begin + parts.argmin(axis=1), begin + parts.argmax(axis=1), [0, len(values) - 1]]
+    if whole < len(values):
+        kept.append([whole + values[whole:].argmin(), whole + values[whole:].argmax()])
+    return np.unique(np.concatenate(kept))
