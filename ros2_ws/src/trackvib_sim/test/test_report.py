@@ -50,7 +50,7 @@ def _tree(text):
 
 
 def _words(text):
-    return " ".join("".join(_tree(text).find(f"{HTML}body").itertext()).split())
+    return " ".join(" ".join(_tree(text).find(f"{HTML}body").itertext()).split())
 
 
 @pytest.mark.property
@@ -112,7 +112,7 @@ def test_gaps_are_told(report):
     """Each gap stands in the table, and the notes say so at the top."""
     time = np.delete(np.arange(1, 10_001), slice(4999, 5249))
     words = _words(report(made_recording(time)))
-    assert "chassis/imu: 1 gaps, in which 250 samples are missing" in words
+    assert "chassis/imu: gaps: 1, in which 250 samples are missing" in words
     assert "chassis/imu 4.999 0.251 250" in words
 
 
@@ -131,7 +131,7 @@ def test_bags_are_compared_with_the_first(report):
     parameters = {**one.provenance, "parameters of /controller": {"law": "skyhook"}}
     words = _words(report(one, other._replace(path=Path("runs/two/bag"), provenance=parameters)))
     assert words.count("(+100.0 %)") == 3 * 6 + 8
-    assert "controller law not told skyhook" in words and "simulator speed" not in words
+    assert "controller law not told skyhook" in words and "simulator speed 10.0 10.0" not in words
     assert "In brackets the difference to one." in words
 
 

@@ -47,7 +47,7 @@ def page(request, tmp_path_factory):
     return path.as_uri()
 
 
-@pytest.fixture(params=SIZES)
+@pytest.fixture(scope="module", params=SIZES)
 def opened(request, browser, page):
     """The browser with the report open on a desktop or a phone."""
     width, height, mobile = SIZES[request.param]

@@ -24,12 +24,13 @@ def _overlay(excerpts, names, points, **options):
 
 def rms_bars(excerpts, names):
     """RMS of each sensor and axis as groups of bars, a bar a bag."""
-    groups = [f"{sensor}<br>{axis}" for sensor in SENSORS for axis in AXES]
+    groups = [f"{sensor} {axis}" for sensor in SENSORS for axis in AXES]
     figure = go.Figure()
     for index, (excerpt, name) in enumerate(zip(excerpts, names, strict=True)):
         found = excerpt.analysis.sensors
         heights = [found[sensor][axis].rms for sensor in SENSORS for axis in AXES]
         figure.add_trace(go.Bar(x=groups, y=heights, name=plain(name), marker_color=_look(index)[0]))
+    figure.update_xaxes(automargin=True)
     figure.update_yaxes(title_text="RMS, m/s²")
     return styled(figure, 340)
 

@@ -45,7 +45,7 @@ def names(paths):
     """Return a short name for each of several bags: what their paths do not share."""
     paths = [PurePath(path) for path in paths]
     if len(paths) == 1:
-        return ["/".join(paths[0].parts[-2:])]
+        return [str(PurePath(*paths[0].parts[-2:]))]
     try:
         shared = len(PurePath(commonpath(paths)).parts)
     except ValueError:  # absolute and relative ones
@@ -53,7 +53,7 @@ def names(paths):
     parts = [path.parts[shared:] for path in paths]
     while all(len(each) > 1 for each in parts) and len({each[-1] for each in parts}) == 1:
         parts = [each[:-1] for each in parts]  # "bag", as every run calls its own
-    found = ["/".join(each) or path.name for each, path in zip(parts, paths, strict=True)]
+    found = [str(PurePath(*each)) if each else path.name for each, path in zip(parts, paths, strict=True)]
     return [name if found.count(name) == 1 else f"{name} ({1 + index})" for index, name in enumerate(found)]
 
 
