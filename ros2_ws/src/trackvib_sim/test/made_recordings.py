@@ -26,7 +26,6 @@ def made_recording(milliseconds, chassis=None, powertrain=None, speed=10.0):
         answers=Answers(stamp, 2.0 * pair),
         odometry=Odometry(slow, np.zeros((len(slow), 3)), np.full(len(slow), speed)),
         diagnostics={"late": "0"},
-        diagnostics_history=[],
         provenance={
             "parameters of /ns/simulator": {"speed": str(speed), "engine_speed": "1650.0"},
             "parameters of /ns/road_excitation": {"level_until": "8.0", "fade": "8.0"},

@@ -104,8 +104,10 @@ def test_recordings_that_cannot_be_measured_are_refused():
     with pytest.raises(ValueError, match="5000 samples of chassis/imu cannot fill"):
         analyse(whole._replace(chassis=whole.chassis._replace(stamp=stamp)))
     same = whole.chassis._replace(stamp=np.full(5000, MS))
-    with pytest.raises(ValueError, match="cannot fill"):
+    with pytest.raises(ValueError, match="go on by 0 ns from sample to sample, must be above 0"):
         analyse(whole._replace(chassis=same))
+    with pytest.raises(ValueError, match="go on by nan ns"):
+        analyse(made_recording(np.arange(1, 2)))
 
 
 @pytest.mark.property

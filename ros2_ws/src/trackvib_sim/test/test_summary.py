@@ -19,7 +19,7 @@ def drive(chassis, powertrain, answered, time):
     ]
     answers = Answers(np.array(answered) * MS, np.ones((len(answered), 2)))
     told = {"time": str(time)}
-    return Recording(Path("bag"), *sensors, None, answers, None, told, [], {}, Counter(), None)
+    return Recording(Path("bag"), *sensors, None, answers, None, told, {}, Counter(), None)
 
 
 @pytest.mark.property

@@ -14,7 +14,7 @@ from .analysis.bag_tables import write_tables
 from .analysis.levels import WEIGHTINGS
 from .analysis.report.excerpt import excerpt
 from .analysis.report.page import write_report
-from .analysis.summary import AXES, SENSORS
+from .analysis.summary import AXES
 from .bags.recording import read_recording
 from .bags.writing import BagError
 
@@ -86,49 +86,56 @@ def _follower(progress, description):
 
 
 def _levels(analyses):
-    table = _table("acceleration, band-limited (RMS, peak) and weighted by ISO 2631-1 (the rest), m/s²")
-    for name in ("RMS", "peak", "RMS", "crest factor", "MTVV", "VDV m/s^1.75"):
+    table = _table("acceleration, m/s²: band-limited; weighted by ISO 2631-1 (VDV in m/s^1.75)", ("",))
+    for name in ("RMS", "peak", "weighted", "crest", "MTVV", "VDV"):
         table.add_column(name, justify="right")
-    for number, analysis in enumerate(analyses, 1):
+    for analysis in _sections(table, analyses):
         for sensor, axes in analysis.sensors.items():
             for axis, n in axes.items():
                 weighted = f"{WEIGHTINGS[AXES.index(axis)]} {n.rms_weighted:.3f}"
                 rest = (f"{value:.3f}" for value in (n.crest_factor, n.mtvv, n.vdv))
-                table.add_row(str(number), f"{sensor} {axis}", f"{n.rms:.3f}", f"{n.peak:.3f}", weighted, *rest)
-        table.add_section()
+                table.add_row(f"{sensor} {axis}", f"{n.rms:.3f}", f"{n.peak:.3f}", weighted, *rest)
     return table
 
 
 def _lines(analyses):
-    table = _table("RMS about lines with a known cause, m/s²")
-    table.add_column("Hz", justify="right")
-    for sensor in SENSORS:
-        for axis in AXES:
-            table.add_column(f"{sensor}\n{axis}", justify="right")
-    for number, analysis in enumerate(analyses, 1):
+    table = _table("RMS about lines with a known cause, m/s²", ("", "Hz", ""))
+    for axis in AXES:
+        table.add_column(axis, justify="right")
+    for analysis in _sections(table, analyses):
         for line in analysis.lines:
-            levels = [f"{level:.2f}" for axes in line.rms.values() for level in axes.values()]
-            table.add_row(str(number), line.name, f"{line.frequency:.1f}", *levels)
-        table.add_section()
+            names = (line.name, f"{line.frequency:.1f}")
+            for sensor, axes in line.rms.items():
+                table.add_row(*names, sensor, *(f"{level:.3f}" for level in axes.values()))
+                names = ("", "")
     return table
 
 
 def _mounts(analyses):
-    table = _table("mounts: vertical travel and force about their means, current")
-    for name in ("mm RMS", "peak", "kN RMS", "peak", "J heat", "A mean", "RMS", "least", "most"):
+    table = _table("mounts: vertical travel (mm) and force (kN) about their means, heat, current (A)", ("",))
+    for name in ("travel", "peak", "force", "peak", "heat, J", "mean", "least", "most"):
         table.add_column(name, justify="right")
-    for number, analysis in enumerate(analyses, 1):
+    for analysis in _sections(table, analyses):
         for side, mount in analysis.mounts.items():
             z, current = mount.axes["z"], mount.current
-            numbers = (1e3 * z.travel_rms, 1e3 * z.travel_peak, 1e-3 * z.force_rms, 1e-3 * z.force_peak,
-                       mount.energy_dissipated, current.mean, current.rms, current.least, current.greatest)  # fmt: skip
-            table.add_row(str(number), side, *(f"{each:.2f}" for each in numbers))
-        table.add_section()
+            lengths, forces = (z.travel_rms, z.travel_peak), (z.force_rms, z.force_peak)
+            numbers = (*(1e3 * each for each in lengths), *(1e-3 * each for each in forces), mount.energy_dissipated,
+                       current.mean, current.least, current.greatest)  # fmt: skip
+            table.add_row(side, *(f"{each:.2f}" for each in numbers))
     return table
 
 
-def _table(title):
+def _sections(table, analyses):
+    """Iterate over some analyses, of which each gets a part of a table, with its number where there are several."""
+    for number, analysis in enumerate(analyses, 1):
+        table.add_section()
+        if len(analyses) > 1:
+            table.add_row(f"bag {number}", style="bold")
+        yield analysis
+
+
+def _table(title, words):
     table = Table(title=title, title_justify="left")
-    table.add_column("bag")
-    table.add_column("")
+    for name in words:
+        table.add_column(name)
     return table

@@ -25,7 +25,13 @@ from .summary import (
 )
 from .vibration import band
 
-TOPICS = {"chassis": "chassis/imu", "powertrain": "powertrain/imu", "mounts": "mount_state", "odometry": "odometry"}
+TOPICS = {
+    "chassis": "chassis/imu",
+    "powertrain": "powertrain/imu",
+    "mounts": "mount_state",
+    "answers": "coil_current",
+    "odometry": "odometry",
+}
 
 
 def parameters_of(recording, node):
@@ -63,7 +69,7 @@ def analyse(recording, settle=None, follow=lambda done, total: None):
     settle = settling_of(recording) if settle is None else settle
     begin, loop = start_of(recording), loop_health(recording)
     timings = {
-        end: timing(getattr(recording, part).stamp, begin)
+        end: timing(getattr(recording, part)[0], begin)  # the first column of each is its stamps
         for part, end in TOPICS.items()
         if getattr(recording, part) is not None
     }
@@ -188,13 +194,11 @@ def _notes(recording, timings, rate):
     for end, (found, _) in timings.items():
         counts = {
             f"gaps: {found.gap_count}, in which {found.missing} samples are missing": found.gap_count,
-            f"samples with the stamp of the one before: {found.repeated}": found.repeated,
+            f"samples within half a period of the one before: {found.repeated}": found.repeated,
             f"samples older than the one before: {found.backward}; nothing counts from there on": found.backward,
         }
         notes += [f"{end}: {text}" for text, count in counts.items() if count]
     if rate < LEAST_RATE:
         notes.append(f"sampling rate is {rate:g} Hz, below {LEAST_RATE:g} Hz: no weighted values of ISO 2631-1")
     notes += [f"no {end} in the bag" for part, end in TOPICS.items() if getattr(recording, part) is None]
-    if recording.answers is None:
-        notes.append("no coil_current in the bag")
     return notes

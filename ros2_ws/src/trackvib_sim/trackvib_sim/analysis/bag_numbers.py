@@ -84,14 +84,14 @@ class Gap:
 
 @dataclass(frozen=True)
 class Timing:
-    """What the stamps of a topic say, over the whole bag."""
+    """What the stamps of a topic say, over the whole bag; those of answers are of the samples that they answer."""
 
     samples: int = _number("-")
     period: float = _number("s")  # median step of the stamps
     first: float = _number("s")  # from the start of the bag
     last: float = _number("s")
     missing: int = _number("-")  # in all gaps
-    repeated: int = _number("-")  # samples with the stamp of the one before
+    repeated: int = _number("-")  # samples within half a period of the one before
     backward: int = _number("-")  # samples older than the one before
     gap_count: int = _number("-")
     gaps: tuple  # the `Gap`s, up to `MOST_GAPS`

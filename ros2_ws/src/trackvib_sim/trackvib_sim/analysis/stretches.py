@@ -58,7 +58,7 @@ def timing(stamp, begin):
         found.append(block.start + 1 + np.flatnonzero(~(np.abs(step - period) < TOLERANCE * period)))
     breaks = np.concatenate(found)
     step = stamp[breaks] - stamp[breaks - 1]
-    gap = step > 0
+    gap = step > period
     missing = np.round(step[gap] / period).astype(np.int64) - 1
     listed = [
         Gap(float(stamp[after - 1] - begin) / NANO, float(length) / NANO, int(count))
@@ -70,7 +70,7 @@ def timing(stamp, begin):
         first=float(stamp[0] - begin) / NANO,
         last=float(stamp[-1] - begin) / NANO,
         missing=int(missing.sum()),
-        repeated=int((step == 0).sum()),
+        repeated=int(((step >= 0) & (step <= period)).sum()),
         backward=int((step < 0).sum()),
         gap_count=int(gap.sum()),
         gaps=tuple(listed),

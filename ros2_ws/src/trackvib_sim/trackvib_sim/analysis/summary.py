@@ -51,11 +51,20 @@ def settling_time(speed, full_roughness):
 
 
 def start_of(recording):
-    """Return the time [ns] at which a recording starts: 0 of a whole run, else one period before its first sample."""
+    """Return the time [ns] at which a recording starts: 0 of a whole run, else one period before its first sample.
+
+    Raises
+    ------
+    ValueError
+        The stamps of the chassis do not go on.
+    """
     odometry, chassis = recording.odometry, recording.chassis.stamp
+    period = period_of(chassis)
+    if not period > 0.0:
+        raise ValueError(f"stamps of chassis/imu go on by {period:g} ns from sample to sample, must be above 0")
     if odometry is not None and odometry.stamp[0] == 0:  # of the vehicle before the first period
         return 0
-    return int(min(chassis[0], recording.powertrain.stamp[0]) - period_of(chassis))
+    return int(min(chassis[0], recording.powertrain.stamp[0]) - period)
 
 
 def losses(recording):

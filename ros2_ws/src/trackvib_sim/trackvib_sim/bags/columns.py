@@ -15,10 +15,11 @@ from .mcap_chunks import at
 
 
 class Columns(NamedTuple):
-    """How a topic becomes a record of columns: its type, and by column the field in the message and its shape."""
+    """How a topic becomes a record of columns."""
 
-    kind: type
-    fields: dict
+    type_name: str  # of the messages
+    kind: type  # of the record
+    fields: dict  # by column: first the name of a time in the message, then names and shapes of numbers
 
     @property
     def row(self):
@@ -41,7 +42,7 @@ class Topic:
         self._file = TemporaryFile()  # noqa: SIM115, lives as long as the arrays
         self._layout = None
 
-    def add(self, store, type_name, data, start, size):
+    def add(self, store, data, start, size):
         """Add messages that stand at places of some bytes."""
         rows = np.empty(len(start), self._columns.row)
         left = np.arange(len(start))
@@ -51,7 +52,7 @@ class Topic:
             if not fitting.any():
                 first = start[left[0]]
                 message = data[first : first + size[left[0]]].tobytes()
-                self._layout = find_layout(store, type_name, message, self._columns.wanted)
+                self._layout = find_layout(store, self._columns.type_name, message, self._columns.wanted)
                 continue
             self._fill(rows, left[fitting], at(data, self._layout.numbers, start[left[fitting]]))
             left = left[~fitting]

@@ -12,7 +12,6 @@ from mcap.exceptions import McapError
 from rosbags.serde import SerdeError
 from zstandard import ZstdError
 
-from ..simulation.settings import NANO
 from .cdr_layout import type_store
 from .columns import Columns, Topic
 from .mcap_chunks import parts, take_apart
@@ -65,29 +64,37 @@ class Recording(NamedTuple):
     answers: Answers | None
     odometry: Odometry | None
     diagnostics: dict  # last values of the simulator, as text
-    diagnostics_history: list  # of (stamp [ns], dict of the simulator's values), in the bag's order
     provenance: dict  # metadata records of the bag: name -> dict of text
     counts: Counter  # messages a topic
     vehicle: str | None  # text of the vehicle file
 
 
-_IMU = Columns(Inertial, {"stamp": "header.stamp", "specific_force": ("linear_acceleration", (3,)),
-                           "rate": ("angular_velocity", (3,))})  # fmt: skip
-_SHAPES = dict.fromkeys(("current", "stiffness", "damping"), (2,)) | dict.fromkeys(
-    ("deflection", "velocity", "force"), (2, 3)
-)
-_MOUNTS = {"stamp": "header.stamp", **{name: (name, shape) for name, shape in _SHAPES.items()},
-           "dissipated_power": ("dissipated_power", (2,))}  # fmt: skip
+_SENSOR = Columns("sensor_msgs/msg/Imu", Inertial, {
+    "stamp": "header.stamp",
+    "specific_force": ("linear_acceleration", (3,)),
+    "rate": ("angular_velocity", (3,)),
+})  # fmt: skip
+_BOTH = {name: (name, (2,)) for name in ("current", "stiffness", "damping")}
+_VECTORS = {name: (name, (2, 3)) for name in ("deflection", "velocity", "force")}
 _COLUMNS = {
-    "chassis/imu": _IMU,
-    "powertrain/imu": _IMU,
-    "mount_state": Columns(Mounts, _MOUNTS),
-    "coil_current": Columns(Answers, {"sample_stamp": "sample_stamp", "current": ("current", (2,))}),
-    "odometry": Columns(Odometry, {"stamp": "header.stamp", "position": ("pose.pose.position", (3,)),
-                                    "speed": ("twist.twist.linear.x", ())}),
+    "chassis/imu": _SENSOR,
+    "powertrain/imu": _SENSOR,
+    "mount_state": Columns("trackvib_msgs/msg/MountState", Mounts, {
+        "stamp": "header.stamp", **_BOTH, **_VECTORS, "dissipated_power": ("dissipated_power", (2,)),
+    }),
+    "coil_current": Columns("trackvib_msgs/msg/CoilCurrent", Answers, {
+        "sample_stamp": "sample_stamp", "current": ("current", (2,)),
+    }),
+    "odometry": Columns("nav_msgs/msg/Odometry", Odometry, {
+        "stamp": "header.stamp", "position": ("pose.pose.position", (3,)), "speed": ("twist.twist.linear.x", ()),
+    }),
 }  # fmt: skip
 _NEEDED = ("chassis/imu", "powertrain/imu")
-_RARE = ("diagnostics", "vehicle_description")
+_DIAGNOSTICS, _DESCRIPTION = "diagnostics", "vehicle_description"
+_TYPES = {end: columns.type_name for end, columns in _COLUMNS.items()} | {
+    _DIAGNOSTICS: "diagnostic_msgs/msg/DiagnosticArray",
+    _DESCRIPTION: "std_msgs/msg/String",
+}
 # mcap raises plain ValueErrors as well, lz4 RuntimeErrors
 _READ_ERRORS = (OSError, McapError, ZstdError, SerdeError, ValueError, RuntimeError)
 
@@ -130,7 +137,7 @@ class _Reading:
     def __init__(self):
         self._topics = {}  # name -> Topic, of those that are columns
         self._provenance, self._counts = {}, Counter()
-        self._history, self._vehicle = [], None
+        self._diagnostics, self._vehicle = {}, None
 
     def read(self, file, follow):
         """Read one file; ids of schemas and channels are its own."""
@@ -146,32 +153,32 @@ class _Reading:
                     of_channel = messages.channel == channel_id
                     start, size = messages.start[of_channel], messages.size[of_channel]
                     self._counts[channel.topic] += len(start)
-                    if any(channel.topic.endswith(f"/{end}") for end in (*_COLUMNS, *_RARE)):
+                    end = next((end for end in _TYPES if channel.topic.endswith(f"/{end}")), None)
+                    if end is not None and schema.name == _TYPES[end]:
                         if schema.id not in stores:
                             stores[schema.id] = type_store(schema.name, schema.encoding, schema.data)
-                        self._take(channel.topic, stores[schema.id], schema.name, part.data, start, size)
+                        self._take(channel.topic, end, stores[schema.id], part.data, start, size)
                 follow(part.end)
 
-    def _take(self, topic, store, type_name, data, start, size):
-        end = next((end for end in _COLUMNS if topic.endswith(f"/{end}")), None)
-        if end is not None:
+    def _take(self, topic, end, store, data, start, size):
+        if end in _COLUMNS:
             if topic not in self._topics:
                 self._topics[topic] = Topic(_COLUMNS[end])
-            self._topics[topic].add(store, type_name, data, start, size)
+            self._topics[topic].add(store, data, start, size)
             return
         for first, length in zip(start.tolist(), size.tolist(), strict=True):
-            message = store.deserialize_cdr(data[first : first + length].data, type_name)
-            if topic.endswith("/vehicle_description"):
+            message = store.deserialize_cdr(data[first : first + length].data, _TYPES[end])
+            if end == _DESCRIPTION:
                 self._vehicle = message.data
-            elif values := _of_simulator(message):
-                self._history.append((message.header.stamp.sec * NANO + message.header.stamp.nanosec, values))
+            else:
+                self._diagnostics |= _of_simulator(message)
 
     def recording(self, path):
         """Return it all."""
         found = {end: [topic for topic in self._topics if topic.endswith(f"/{end}")] for end in _COLUMNS}
         missing = [end for end in _NEEDED if not found[end]]
         if missing:
-            raise BagError(f"bag {str(path)!r} holds no messages on {', '.join(missing)}")
+            raise BagError(f"bag {str(path)!r} holds no {_SENSOR.type_name} on {', '.join(missing)}")
         space = found["chassis/imu"][0].removesuffix("chassis/imu")
         if any(found[end] != [f"{space}{end}"] for end in _NEEDED):
             several = ", ".join(topic for end in _NEEDED for topic in found[end])
@@ -180,10 +187,7 @@ class _Reading:
         for end, topics in found.items():
             topics.sort(key=lambda topic, own=f"{space}{end}": topic != own)
             columns.append(self._topics[topics[0]].columns() if topics else None)
-        last = {}
-        for _, values in self._history:
-            last |= values
-        return Recording(path, *columns, last, self._history, self._provenance, self._counts, self._vehicle)
+        return Recording(path, *columns, self._diagnostics, self._provenance, self._counts, self._vehicle)
 
 
 def _of_simulator(message):
