@@ -117,6 +117,21 @@ def test_gaps_are_told(report):
 
 
 @pytest.mark.property
+@pytest.mark.parametrize(
+    ("told", "words"),
+    [
+        ({"late": "0", "state": "finished"}, "nothing lost, nothing late, every sample answered"),
+        ({"late": "3", "saturated": "2"}, "Loop: 3 late, 2 saturated."),
+        ({"late": "0", "state": "failed"}, "Loop: the run failed."),
+        ({}, "Loop: the bag does not tell what the simulator counted."),
+    ],
+)
+def test_loop_health_stands_at_the_top(report, told, words):
+    """What went wrong in the loop is said, and that nothing did only if that is known."""
+    assert words in _words(report(made_recording(np.arange(1, 4001))._replace(diagnostics=told)))
+
+
+@pytest.mark.property
 def test_reduction_is_that_of_the_sensors(report):
     """The powertrain with half the chassis's accelerations has 50 % less."""
     words = _words(report(made_recording(np.arange(1, 4001))))

@@ -102,9 +102,14 @@ def loop(analysis):
 
 
 def worries(analysis):
-    """Return what was counted in the loop and should not have been, in words."""
+    """Return in words what was counted in the loop and should not have been, and what is not known of it."""
     counted = {key: _whole(analysis.loop.get(key, 0)) for key in _WORRYING}
-    return [f"{count} {_spaced(key)}" for key, count in counted.items() if count]
+    found = [f"{count} {_spaced(key)}" for key, count in counted.items() if count]
+    if analysis.loop.get("state") == "failed":
+        found.append("the run failed")
+    if "late" not in analysis.loop:
+        found.append("the bag does not tell what the simulator counted")
+    return found
 
 
 def timing(analysis):
