@@ -161,7 +161,7 @@ def test_analysis_of_the_bag_agrees_with_the_summary(first, tmp_path):
     rms = {sensor: {axis: n["rms"] for axis, n in axes.items()} for sensor, axes in found["sensors"].items()}
     assert rms == summary["rms_mps2"]
     assert (found["loop"], found["mount_energy"]) == (summary["loop"], summary["mounts_J"])
-    assert found["settle"] == summary["settled_after_s"] and found["notes"] == []
+    assert found["settle"] == summary["settled_after_s"]
     lines = {line["name"]: line["frequency"] for line in found["lines"]}
     assert lines["link passing 1"] == pytest.approx(87.0, rel=0.01) and lines["engine order 2"] == 55.0
     assert {"numbers.csv", "spectra.parquet", "history.parquet", "report.html"} <= {p.name for p in out.iterdir()}
