@@ -164,7 +164,7 @@ def test_analysis_of_the_bag_agrees_with_the_summary(first, tmp_path):
     assert found["settle"] == summary["settled_after_s"]
     lines = {line["name"]: line["frequency"] for line in found["lines"]}
     assert lines["link passing 1"] == pytest.approx(87.0, rel=0.01) and lines["engine order 2"] == 55.0
-    assert {"numbers.csv", "spectra.parquet", "history.parquet"} <= {p.name for p in out.iterdir()}
+    assert {"numbers.csv", "spectra.parquet", "history.parquet", "report.html"} <= {p.name for p in out.iterdir()}
     assert f"{rms['powertrain']['z']:.3f}" in done.stdout and "link passing 1" in done.stdout
 
 

@@ -12,6 +12,7 @@ setup(
     maintainer="trackvib developers",
     maintainer_email="developers@trackvib.invalid",
     packages=find_packages(exclude=["test"]),
+    package_data={f"{name}.analysis.report": ["templates/*"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{name}"]),
         (f"share/{name}", ["package.xml"]),
@@ -24,11 +25,13 @@ setup(
         "click",
         "cma",
         "distributed",
+        "jinja2",
         "matplotlib",
         "mcap",
         "numba",
         "numpy",
         "pin",
+        "plotly",
         "pyarrow",
         "pydantic>=2",
         "pyyaml",
@@ -37,7 +40,7 @@ setup(
         "scipy",
         "zstandard",
     ],
-    extras_require={"test": ["hypothesis", "pytest"]},
+    extras_require={"test": ["html5lib", "hypothesis", "pytest", "selenium"]},
     zip_safe=True,
     entry_points={
         "console_scripts": [

@@ -12,6 +12,8 @@ from rich.table import Table
 from .analysis.bag_analysis import analyse
 from .analysis.bag_tables import write_tables
 from .analysis.levels import WEIGHTINGS
+from .analysis.report.excerpt import excerpt
+from .analysis.report.page import write_report
 from .analysis.summary import AXES
 from .bags.recording import read_recording
 from .bags.writing import BagError
@@ -31,7 +33,7 @@ def perform(bags, settle, out):
     """
     console = Console(highlight=False)
     with _new_folder(out) as folder:
-        analyses = []
+        analyses, excerpts = [], []
         with _progress(console) as progress:
             for bag in bags:
                 recording = read_recording(bag, _follower(progress, f"reading {bag}"))
@@ -39,7 +41,9 @@ def perform(bags, settle, out):
                     analyses.append(analyse(recording, settle, _follower(progress, f"measuring {bag}")))
                 except ValueError as error:
                     raise EvaluationError(f"bag {bag!r}: {error}") from None
+                excerpts.append(excerpt(recording, analyses[-1]))
         write_tables(analyses, folder)
+        write_report(excerpts, folder / "report.html")
     for number, analysis in enumerate(analyses, 1):
         told = f"{analysis.duration:g} s, of which {analysis.measured:g} s count, after {analysis.settle:g} s"
         console.print(f"bag {number}: {analysis.bag}: {told}", soft_wrap=True)

@@ -1,0 +1,1 @@
+"""The report: one HTML file about one bag, or about several side by side. Whatever a bag tells is escaped."""

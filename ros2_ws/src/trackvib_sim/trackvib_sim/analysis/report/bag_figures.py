@@ -1,0 +1,140 @@
+"""The figures about one bag: a function each, from its `Excerpt`."""
+
+import numpy as np
+import plotly.graph_objects as go
+from plotly.subplots import make_subplots
+
+from ..bag_numbers import SIDES
+from ..summary import AXES, SENSORS
+from .figure_style import (
+    AXIS_COLOURS,
+    AXIS_NAMES,
+    SENSOR_COLOURS,
+    SIDE_COLOURS,
+    density,
+    line,
+    over_frequency,
+    ratio,
+    settling,
+    styled,
+)
+
+LONG = 30  # bins, from which levels along the bag tell more than the histories
+RANGE = 50.0  # dB below the greatest level that a spectrogram tells apart
+_DENSITY = ((0.0, "rgba(128,128,128,0.2)"), (1.0, "rgba(128,128,128,0.95)"))
+
+
+def histories(excerpt):
+    """Specific force of both sensors along three axes, below each other."""
+    figure = make_subplots(rows=3, cols=1, shared_xaxes=True, vertical_spacing=0.03)
+    for row, axis in enumerate(AXES, start=1):
+        for sensor in SENSORS:
+            points = excerpt.accelerations[sensor][axis]
+            options = {"legendgroup": sensor, "showlegend": row == 1, "opacity": 0.85}
+            figure.add_trace(line(points, sensor, SENSOR_COLOURS[sensor], width=0.8, **options), row=row, col=1)
+        figure.update_yaxes(title_text=f"{AXIS_NAMES[axis]}, m/s²", row=row, col=1)
+    figure.update_xaxes(title_text="time, s", row=3, col=1)
+    return settling(styled(figure, 640), excerpt.analysis)
+
+
+def levels(excerpt):
+    """RMS of the vertical and the speed in equal parts of the bag; None for a short bag."""
+    history = excerpt.analysis.history
+    if len(history.time) < LONG:
+        return None
+    figure = make_subplots(rows=2, cols=1, shared_xaxes=True, vertical_spacing=0.05, row_heights=(0.65, 0.35))
+    for sensor in SENSORS:
+        points = history.time, history.rms[sensor][:, AXES.index("z")]
+        figure.add_trace(line(points, sensor, SENSOR_COLOURS[sensor]), row=1, col=1)
+    figure.add_trace(line((history.time, history.speed), "speed", "#808080"), row=2, col=1)
+    figure.update_yaxes(title_text="RMS vertical z, m/s²", rangemode="tozero", row=1, col=1)
+    figure.update_yaxes(title_text="speed, m/s", row=2, col=1)
+    figure.update_xaxes(title_text="time, s", row=2, col=1)
+    return settling(styled(figure, 420), excerpt.analysis)
+
+
+def spectra(excerpt):
+    """Power spectral densities of both sensors: a figure an axis."""
+    found = excerpt.analysis.spectra
+    return [
+        density(
+            [
+                line((found.frequency[1:], found.psd[sensor][1:, column]), sensor, SENSOR_COLOURS[sensor])
+                for sensor in SENSORS
+            ],
+            excerpt.analysis,
+            AXIS_NAMES[axis],
+        )
+        for column, axis in enumerate(AXES)
+    ]
+
+
+def transmission(excerpt):
+    """Transmissibility from chassis to powertrain, and their coherence: a figure each."""
+    found = excerpt.analysis.spectra
+
+    def traces(values):
+        return [
+            line((found.frequency[1:], values[1:, column]), AXIS_NAMES[axis], AXIS_COLOURS[axis])
+            for column, axis in enumerate(AXES)
+        ]
+
+    alike = over_frequency(traces(found.coherence), excerpt.analysis, "Coherence", "coherence, -")
+    alike.update_yaxes(range=(0.0, 1.02))
+    return [ratio(traces(found.transmissibility), excerpt.analysis, "Transmissibility"), alike]
+
+
+def spectrograms(excerpt):
+    """Vertical power spectral density over time: a figure a sensor, in the same colours."""
+    found = excerpt.spectrograms
+    levels = np.concatenate([each.level.ravel() for each in found.values()])
+    top = np.nanmax(levels) if np.isfinite(levels).any() else 0.0
+    low = max(top - RANGE, np.nanmin(levels) if np.isfinite(levels).any() else 0.0)
+    figures = []
+    for sensor in SENSORS:
+        each = found[sensor]
+        bar = {"title": {"text": "dB", "side": "top"}, "thickness": 10, "outlinewidth": 0, "x": 1.0, "xpad": 4}
+        figure = go.Figure(
+            go.Heatmap(
+                x=each.time, y=each.frequency, z=each.level, zmin=low, zmax=top, colorscale="Cividis", colorbar=bar,
+                hovertemplate="%{x:.2f} s, %{y:.0f} Hz: %{z:.1f} dB<extra></extra>",
+            )
+        )  # fmt: skip
+        styled(figure, 340, f"{sensor.capitalize()}, vertical z")
+        figure.update_layout(margin={"r": 58, "t": 40})
+        figure.update_xaxes(title_text="time, s", showgrid=False)
+        figure.update_yaxes(title_text="frequency, Hz", showgrid=False)
+        figures.append(figure)
+    return figures
+
+
+def mount_loops(excerpt):
+    """Vertical force over deflection and over velocity: a figure a mount each; none without mount states."""
+    kinds = ((excerpt.deflection_loops, "deflection, mm"), (excerpt.velocity_loops, "velocity, m/s"))
+    return [_loop(loops[side], side, unit) for loops, unit in kinds for side in SIDES if side in loops]
+
+
+def _loop(loop, side, unit):
+    cells = go.Heatmap(
+        x=loop.across, y=loop.force, z=loop.density, colorscale=_DENSITY, showscale=False, hoverinfo="skip"
+    )
+    figure = go.Figure((cells, line(loop.line, "1 s", SIDE_COLOURS[side])))
+    styled(figure, 340, f"{side.capitalize()} mount, force over {unit.split(',')[0]}")
+    figure.update_layout(showlegend=False, margin={"t": 40})
+    figure.update_xaxes(title_text=unit, zeroline=False)
+    figure.update_yaxes(title_text="force on the powertrain, kN", zeroline=False)
+    return figure
+
+
+def currents(excerpt):
+    """Demanded current and that in the coils; None if the bag has neither."""
+    if not excerpt.currents:
+        return None
+    figure = go.Figure()
+    for name, points in excerpt.currents.items():
+        demanded = name.endswith("demanded")
+        colour, dash = SIDE_COLOURS[name.partition(",")[0]], "dot" if demanded else "solid"
+        figure.add_trace(line(points, name, colour, dash=dash, opacity=0.6 if demanded else 1.0))
+    figure.update_xaxes(title_text="time, s")
+    figure.update_yaxes(title_text="current, A", rangemode="tozero")
+    return settling(styled(figure, 300), excerpt.analysis)

@@ -1,0 +1,111 @@
+"""The figures of several bags side by side: a function each, from their `Excerpt`s and names."""
+
+import plotly.graph_objects as go
+
+from ..bag_numbers import SIDES
+from ..summary import AXES, SENSORS
+from .figure_style import AXIS_NAMES, BAG_COLOURS, BAG_DASHES, density, line, plain, ratio, settling, styled
+
+
+def _look(index):
+    return BAG_COLOURS[index % len(BAG_COLOURS)], BAG_DASHES[index // len(BAG_COLOURS) % len(BAG_DASHES)]
+
+
+def _overlay(excerpts, names, points, **options):
+    """Return a line a bag; `points(excerpt)` is None where a bag has none."""
+    traces = []
+    for index, (excerpt, name) in enumerate(zip(excerpts, names, strict=True)):
+        found = points(excerpt)
+        if found is not None:
+            colour, dash = _look(index)
+            traces.append(line(found, plain(name), colour, dash=dash, **options))
+    return traces
+
+
+def rms_bars(excerpts, names):
+    """RMS of each sensor and axis as groups of bars, a bar a bag."""
+    groups = [f"{sensor} {axis}" for sensor in SENSORS for axis in AXES]
+    figure = go.Figure()
+    for index, (excerpt, name) in enumerate(zip(excerpts, names, strict=True)):
+        found = excerpt.analysis.sensors
+        heights = [found[sensor][axis].rms for sensor in SENSORS for axis in AXES]
+        figure.add_trace(go.Bar(x=groups, y=heights, name=plain(name), marker_color=_look(index)[0]))
+    figure.update_xaxes(automargin=True)
+    figure.update_yaxes(title_text="RMS, m/s²")
+    return styled(figure, 340)
+
+
+def spectra(excerpts, names):
+    """Power spectral densities: a figure a sensor and axis. Lines are those of the first bag."""
+    return [
+        density(
+            _spectrum(excerpts, names, column, lambda found, s=sensor: found.psd[s]),
+            excerpts[0].analysis,
+            f"{sensor.capitalize()}, {AXIS_NAMES[axis]}",
+        )
+        for sensor in reversed(SENSORS)
+        for column, axis in enumerate(AXES)
+    ]
+
+
+def transmissibilities(excerpts, names):
+    """Transmissibility from chassis to powertrain: a figure an axis."""
+    return [
+        ratio(
+            _spectrum(excerpts, names, column, lambda found: found.transmissibility),
+            excerpts[0].analysis,
+            AXIS_NAMES[axis],
+        )
+        for column, axis in enumerate(AXES)
+    ]
+
+
+def _spectrum(excerpts, names, column, values):
+    def points(excerpt):
+        found = excerpt.analysis.spectra
+        return found.frequency[1:], values(found)[1:, column]
+
+    return _overlay(excerpts, names, points)
+
+
+def histories(excerpts, names):
+    """Vertical specific force: a figure a sensor."""
+    figures = []
+    for sensor in reversed(SENSORS):
+        traces = _overlay(excerpts, names, lambda each, s=sensor: each.accelerations[s]["z"], width=0.8, opacity=0.75)
+        figure = styled(go.Figure(traces), 320, f"{sensor.capitalize()}, {AXIS_NAMES['z']}")
+        figure.update_xaxes(title_text="time, s")
+        figure.update_yaxes(title_text="specific force, m/s²")
+        figures.append(settling(figure, excerpts[0].analysis))
+    return figures
+
+
+def mount_loops(excerpts, names):
+    """A second of force over deflection and over velocity: a figure a mount each."""
+    figures = []
+    for kind, unit in (("deflection_loops", "deflection, mm"), ("velocity_loops", "velocity, m/s")):
+        for side in SIDES:
+            traces = _overlay(excerpts, names, lambda each, k=kind, s=side: _second(getattr(each, k).get(s)))
+            if traces:
+                figure = styled(go.Figure(traces), 340, f"{side.capitalize()} mount, force over {unit.split(',')[0]}")
+                figure.update_xaxes(title_text=unit, zeroline=False)
+                figure.update_yaxes(title_text="force on the powertrain, kN", zeroline=False)
+                figures.append(figure)
+    return figures
+
+
+def _second(loop):
+    return loop.line if loop is not None else None
+
+
+def currents(excerpts, names):
+    """Current in the coils: a figure a mount."""
+    figures = []
+    for side in SIDES:
+        traces = _overlay(excerpts, names, lambda each, s=side: each.currents.get(f"{s}, in the coil"))
+        if traces:
+            figure = styled(go.Figure(traces), 300, f"{side.capitalize()} coil")
+            figure.update_xaxes(title_text="time, s")
+            figure.update_yaxes(title_text="current, A", rangemode="tozero")
+            figures.append(settling(figure, excerpts[0].analysis))
+    return figures

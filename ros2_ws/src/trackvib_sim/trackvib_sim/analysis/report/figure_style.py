@@ -1,0 +1,104 @@
+"""How every figure of a report looks. Text and grid get their colours from the page, which follows light and dark."""
+
+from html import escape
+from math import log10
+
+import numpy as np
+import plotly.graph_objects as go
+
+from ..plots import COLOURS, LOWEST_FREQUENCY, NAMES
+
+SENSOR_COLOURS = COLOURS
+AXIS_COLOURS = {"x": "#2a9d8f", "y": "#9467bd", "z": "#c8453c"}
+SIDE_COLOURS = {"left": "#2a9d8f", "right": "#b0508f"}
+BAG_COLOURS = ("#1b9e77", "#cc5a9b", "#d99a1c", "#4aa3df", "#8c6bb1", "#808080")
+BAG_DASHES = ("solid", "dash", "dot")  # for more bags than colours
+AXIS_NAMES = dict(zip("xyz", NAMES, strict=True))
+ONE_TWO_FIVE = [float(f"{digit}e{power}") for power in range(-4, 5) for digit in (1, 2, 5)]  # ticks
+GRID = "rgba(128,128,128,0.28)"
+LINE_COLOURS = {"link passing": "rgba(128,128,128,0.9)", "engine order": "rgba(190,140,20,0.95)"}
+_LONGEST = 48  # characters of a name in a legend
+
+
+def plain(text):
+    """Return a text from a bag so that a figure shows it as it stands, and not too much of it."""
+    text = str(text)
+    return escape(text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…", quote=False)
+
+
+def styled(figure, height, title=None):
+    """Give a figure its looks; returns it."""
+    figure.update_layout(
+        template=None,
+        height=height,
+        title={"text": title, "x": 0.0, "xref": "container", "xanchor": "left", "y": 1.0, "yanchor": "top",
+               "pad": {"t": 8, "l": 8}, "font": {"size": 14}},
+        margin={"l": 62, "r": 12, "t": 66 if title else 34, "b": 46},
+        font={"family": "system-ui, sans-serif", "size": 12},
+        paper_bgcolor="rgba(0,0,0,0)",
+        plot_bgcolor="rgba(0,0,0,0)",
+        modebar={"bgcolor": "rgba(0,0,0,0)", "color": "rgba(128,128,128,0.7)", "activecolor": "rgba(128,128,128,1.0)"},
+        legend={"orientation": "h", "x": 0.0, "y": 1.0, "yanchor": "bottom", "bgcolor": "rgba(0,0,0,0)"},
+    )  # fmt: skip
+    lines = {"gridcolor": GRID, "zerolinecolor": GRID, "linecolor": GRID, "showline": True, "mirror": True}
+    figure.update_xaxes(**lines, title_standoff=6)
+    figure.update_yaxes(**lines, title_standoff=4)
+    return figure
+
+
+def line(points, name, colour, **options):
+    """Return a line through points, a pair of arrays (n,)."""
+    style = {"color": colour, "width": options.pop("width", 1.1), "dash": options.pop("dash", "solid")}
+    return go.Scatter(x=points[0], y=points[1], name=name, mode="lines", line=style, **options)
+
+
+def over_frequency(traces, analysis, title, unit):
+    """Return a figure of lines over the logarithm of the frequency, known lines of the spectrum marked."""
+    figure = styled(go.Figure(traces), 340, title)
+    top = 0.5 * analysis.rate
+    low, high = log10(LOWEST_FREQUENCY), log10(max(top, 2.0 * LOWEST_FREQUENCY))
+    figure.update_xaxes(type="log", range=(low, high), tickvals=ONE_TWO_FIVE, title_text="frequency, Hz")
+    figure.update_yaxes(title_text=unit)
+    for each in analysis.lines:
+        if LOWEST_FREQUENCY <= each.frequency <= top:
+            _mark(figure, each)
+    return figure
+
+
+def density(traces, analysis, title):
+    """Return a figure of power spectral densities."""
+    figure = over_frequency(traces, analysis, title, "PSD, (m/s²)²/Hz")
+    return figure.update_yaxes(type="log", exponentformat="power", dtick=1)
+
+
+def ratio(traces, analysis, title):
+    """Return a figure of transmissibilities; it shows half to twice at least, so that nothing small looks large."""
+    figure = over_frequency(traces, analysis, title, "|H1|, powertrain / chassis")
+    values = np.concatenate([trace.y for trace in traces])
+    values = values[values > 0.0]  # which leaves nan out, too
+    low, high = min(values.min(initial=0.5), 0.5), max(values.max(initial=2.0), 2.0)
+    return figure.update_yaxes(type="log", range=(log10(0.9 * low), log10(1.1 * high)), tickvals=ONE_TWO_FIVE)
+
+
+def _mark(figure, marked):
+    kind, _, number = marked.name.rpartition(" ")
+    passing = kind == "link passing"
+    words = f"order {number}" if not passing else "v/p" if number == "1" else f"{number} v/p"
+    style = {"color": LINE_COLOURS[kind], "width": 1, "dash": "dot" if passing else "dash"}
+    figure.add_shape(
+        type="line", x0=marked.frequency, x1=marked.frequency, y0=0.0, y1=1.0, yref="paper", layer="below", line=style
+    )
+    # names stand inside, upright along their lines: of link passing at the top, of the engine at the bottom
+    figure.add_annotation(
+        x=log10(marked.frequency), y=1.0 if passing else 0.0, yref="paper", text=words, textangle=-90, showarrow=False,
+        xanchor="right", yanchor="top" if passing else "bottom", font_size=10, borderpad=0,
+    )  # fmt: skip
+
+
+def settling(figure, analysis):
+    """Shade the settling time of a figure over time."""
+    if analysis.settle > 0.0:
+        figure.add_vrect(x0=0.0, x1=analysis.settle, fillcolor="rgba(128,128,128,0.15)", line_width=0, layer="below")
+    return figure
+
+

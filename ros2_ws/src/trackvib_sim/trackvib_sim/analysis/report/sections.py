@@ -1,0 +1,118 @@
+"""What a report consists of: sections with figures and tables, for one bag and for several."""
+
+from typing import NamedTuple
+
+from ..summary import AXES
+from . import bag_figures, comparison_figures, facts, tables
+
+_WEIGHTED = "Weighted: ISO 2631-1, Wk along z, Wd along x and y."
+_SPECIFIC_FORCE = "Specific force as recorded, +g along z at rest."
+_WELCH = (
+    "Welch's method, windows of 1 s. Dotted: links entering the sprockets, v/p and multiples. "
+    "Dashed: orders of the engine"
+)
+
+
+class Section(NamedTuple):
+    """A part of the page: figures, so many beside each other at most, then tables."""
+
+    title: str
+    words: str
+    figures: list
+    tables: list
+    columns: int = 1
+
+
+def of_one(excerpt):
+    """Return the `Section`s about one bag."""
+    analysis = excerpt.analysis
+    sections = [
+        Section(
+            "Numbers",
+            "Both sensors sit at the ends of the MR mounts. Changes are those from chassis to powertrain; part of them "
+            f"is geometry, because the ends move differently on rigid mounts, too. {_WEIGHTED}",
+            [],
+            [tables.accelerations(analysis)],
+        ),
+        Section(
+            "Histories",
+            f"{_SPECIFIC_FORCE} Of long bags the least and the greatest value of each part is drawn. Grey: settling.",
+            [bag_figures.histories(excerpt), bag_figures.levels(excerpt)],
+            [],
+        ),
+        Section("Spectra", f"{_WELCH}.", bag_figures.spectra(excerpt), [], 3),
+        Section("From chassis to powertrain", "", bag_figures.transmission(excerpt), [], 2),
+        Section(
+            "Link passing and engine orders", "RMS in m/s² in a band about each line.", [], [tables.lines(analysis)]
+        ),
+        Section(
+            "Spectrograms",
+            "Level in dB re 1 (m/s²)²/Hz, windows of 0.5 s. Empty where samples are missing.",
+            bag_figures.spectrograms(excerpt),
+            [],
+            2,
+        ),
+        Section(
+            "Mounts",
+            "Vertical, in the hull's axes. Grey: where the mount was, darker where longer. Line: the second about its "
+            "greatest travel.",
+            bag_figures.mount_loops(excerpt),
+            [tables.mounts(analysis)],
+            2,
+        ),
+        Section("Current", "", [bag_figures.currents(excerpt)], []),
+        Section("Stamps", "Stamps, not times of recording, are the time base.", [], [tables.timing(analysis)]),
+    ]
+    return _filled(sections)
+
+
+def of_several(excerpts, names):
+    """Return the `Section`s that set bags side by side, by their names."""
+    settings = tables.Table(("node", "parameter", *names), facts.differing(excerpts), 2 + len(names))
+    sections = [
+        Section("What differs between the runs", "Parameters of the nodes.", [], [settings]),
+        Section(
+            "Numbers",
+            f"In brackets the difference to {names[0]}. {_WEIGHTED}",
+            [comparison_figures.rms_bars(excerpts, names)],
+            tables.comparison([excerpt.analysis for excerpt in excerpts], names),
+        ),
+        Section("Spectra", f"{_WELCH}; both of {names[0]}.", comparison_figures.spectra(excerpts, names), [], 3),
+        Section("From chassis to powertrain", "", comparison_figures.transmissibilities(excerpts, names), [], 3),
+        Section("Histories", _SPECIFIC_FORCE, comparison_figures.histories(excerpts, names), []),
+        Section(
+            "Mounts",
+            "Vertical, in the hull's axes: the second about each mount's greatest travel.",
+            comparison_figures.mount_loops(excerpts, names),
+            [],
+            2,
+        ),
+        Section("Current", "", comparison_figures.currents(excerpts, names), []),
+    ]
+    return _filled(sections)
+
+
+def tiles(analysis):
+    """Return the headline numbers: words, number, unit, remark."""
+    chassis, powertrain = (analysis.sensors[sensor] for sensor in ("chassis", "powertrain"))
+    found = [(f"powertrain {axis}, RMS", powertrain[axis].rms, chassis[axis].rms) for axis in reversed(AXES)]
+    found.append(("powertrain z, weighted (Wk)", powertrain["z"].rms_weighted, chassis["z"].rms_weighted))
+    told = [
+        (words, tables.number(value, 3), "m/s²", f"{tables.change(value, first)} against the chassis")
+        for words, value, first in found
+    ]
+    if analysis.mounts:
+        energy = sum(mount.energy_dissipated for mount in analysis.mounts.values())
+        told.append(("dissipated in both mounts", tables.number(energy, 3), "J", f"in {analysis.measured:.4g} s"))
+    return told
+
+
+def _filled(sections):
+    """Return sections without the figures and tables that a bag has nothing for, and without empty ones."""
+    kept = []
+    for section in sections:
+        figures = [figure for figure in section.figures if figure is not None]
+        rows = [table for table in section.tables if table.rows]
+        if figures or rows:
+            kept.append(section._replace(figures=figures, tables=rows))
+    return kept

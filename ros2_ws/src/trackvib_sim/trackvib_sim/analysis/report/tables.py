@@ -1,0 +1,176 @@
+"""The tables of a report as plain text: heads and rows of cells."""
+
+from dataclasses import fields
+from math import isfinite, nan
+from typing import NamedTuple
+
+from ..bag_numbers import SIDES, AxisNumbers
+from ..summary import AXES, SENSORS
+
+_WORDS = {
+    "rms": "RMS, band-limited",
+    "rms_raw": "RMS, raw, about the mean",
+    "peak": "peak, band-limited",
+    "rms_weighted": "RMS, weighted",
+    "crest_factor": "crest factor, weighted",
+    "mtvv": "MTVV",
+    "vdv": "VDV",
+    "mean": "mean",
+}
+_MOUNT = (  # words, unit, which number of a `MountNumbers`
+    ("deflection, mean", "mm", lambda mount: 1e3 * mount.axes["z"].deflection_mean),
+    ("travel, RMS", "mm", lambda mount: 1e3 * mount.axes["z"].travel_rms),
+    ("travel, peak", "mm", lambda mount: 1e3 * mount.axes["z"].travel_peak),
+    ("force, mean", "kN", lambda mount: 1e-3 * mount.axes["z"].force_mean),
+    ("force, RMS about the mean", "kN", lambda mount: 1e-3 * mount.axes["z"].force_rms),
+    ("force, peak about the mean", "kN", lambda mount: 1e-3 * mount.axes["z"].force_peak),
+    ("current, mean", "A", lambda mount: mount.current.mean),
+    ("current, least", "A", lambda mount: mount.current.least),
+    ("current, greatest", "A", lambda mount: mount.current.greatest),
+    ("current, fastest change", "A/s", lambda mount: mount.current.slew),
+    ("energy dissipated", "J", lambda mount: mount.energy_dissipated),
+    ("power dissipated, mean", "W", lambda mount: mount.power_dissipated),
+)
+_UNITS = {field.name: field.metadata["unit"].replace("^1.75", "¹·⁷⁵") for field in fields(AxisNumbers)}
+_COLUMNS = tuple(f"{sensor} {axis}" for axis in AXES for sensor in SENSORS)
+_WORRYING = (
+    "lost_chassis", "lost_powertrain", "unanswered", "answered_twice", "late", "duplicate", "early", "not_finite",
+    "saturated", "silent_periods", "overruns",
+)  # fmt: skip
+
+
+class Table(NamedTuple):
+    """A table; the first `words` cells of each row are words, the others numbers."""
+
+    head: tuple
+    rows: list
+    words: int = 1
+
+
+def number(value, digits=4):
+    """Return a number with so many digits that count; a dash for none."""
+    if not isfinite(value):
+        return "–"
+    words = f"{value:#.{digits}g}" if abs(value) < 10.0**digits else f"{value:.0f}"
+    return words.rstrip(".").replace("-", "−")
+
+
+def change(value, first):
+    """Return by how much a number differs from the first one, in words."""
+    if not (isfinite(value) and isfinite(first) and first):
+        return "–"
+    return f"{100.0 * (value / first - 1.0):+.1f} %".replace("-", "−")
+
+
+def accelerations(analysis):
+    """Both sensors by axis, and by how much less the powertrain has."""
+    head = ("", "unit", *_COLUMNS, *(f"change {axis}" for axis in AXES))
+    rows = []
+    for name, words in _WORDS.items():
+        of = {sensor: [getattr(analysis.sensors[sensor][axis], name) for axis in AXES] for sensor in SENSORS}
+        both = list(zip(of["chassis"], of["powertrain"], strict=True))
+        changes = [change(p, c) if name != "mean" else "" for c, p in both]
+        rows.append((words, _UNITS[name], *(number(value) for pair in both for value in pair), *changes))
+    return Table(head, rows, 2)
+
+
+def lines(analysis):
+    """What lies in the bands about known lines of the spectrum."""
+    head = ("", "Hz", "band, Hz", *_COLUMNS)
+    rows = [
+        (
+            line.name,
+            number(line.frequency),
+            f"{line.low:.4g} to {line.high:.4g}",
+            *(number(line.rms[sensor][axis], 3) for axis in AXES for sensor in SENSORS),
+        )
+        for line in analysis.lines
+    ]
+    return Table(head, rows)
+
+
+def mounts(analysis):
+    """Both mounts, along the vertical; without mount states no rows."""
+    found = list(analysis.mounts.values())
+    rows = [(words, unit, *(number(of(mount)) for mount in found)) for words, unit, of in _MOUNT] if found else []
+    return Table(("vertical", "unit", *analysis.mounts), rows, 2)
+
+
+def loop(analysis):
+    """What was counted in the loop, and what the simulator told last."""
+    return Table(("", ""), [(_spaced(key), str(value)) for key, value in analysis.loop.items()])
+
+
+def worries(analysis):
+    """Return in words what was counted in the loop and should not have been, and what is not known of it."""
+    counted = {key: _whole(analysis.loop.get(key, 0)) for key in _WORRYING}
+    found = [f"{count} {_spaced(key)}" for key, count in counted.items() if count]
+    if analysis.loop.get("state") == "failed":
+        found.append("the run failed")
+    if "late" not in analysis.loop:
+        found.append("the bag does not tell what the simulator counted")
+    return found
+
+
+def timing(analysis):
+    """What the stamps of each topic say."""
+    rows = [
+        (
+            topic, f"{each.samples}", number(1e3 * each.period), f"{each.first:.6g}", f"{each.last:.6g}",
+            f"{each.missing}", f"{each.gap_count}", f"{each.repeated}", f"{each.backward}",
+        )
+        for topic, each in analysis.timing.items()
+    ]  # fmt: skip
+    head = ("stamps of", "samples", "period, ms", "first, s", "last, s", "missing", "gaps", "repeated", "backward")
+    return Table(head, rows)
+
+
+def gaps(analysis, most=50):
+    """The first gaps of each topic."""
+    rows = [
+        (topic, f"{gap.begin:.7g}", f"{gap.length:.4g}", f"{gap.missing}")
+        for topic, each in analysis.timing.items()
+        for gap in each.gaps[:most]
+    ]
+    return Table(("gap in", "after, s", "length, s", "samples missing"), rows)
+
+
+def comparison(analyses, names):
+    """Numbers of several bags with their differences to the first one's: a table a quantity, and one a mount."""
+    places = [(sensor, axis) for sensor in reversed(SENSORS) for axis in AXES]
+    found = []
+    for name in ("rms", "rms_weighted", "vdv", "peak"):
+        rows = [
+            (f"{sensor} {axis}", [getattr(analysis.sensors[sensor][axis], name) for analysis in analyses])
+            for sensor, axis in places
+        ]
+        if name == "rms_weighted":
+            for sensor in reversed(SENSORS):
+                rows.append((f"{sensor}, all axes", [analysis.total_weighted[sensor] for analysis in analyses]))
+        found.append(_compared(f"{_WORDS[name]}, {_UNITS[name]}", rows, names))
+    for side in SIDES:
+        mounts = [analysis.mounts.get(side) for analysis in analyses]
+        rows = [(f"{words}, {unit}", [of(mount) if mount else nan for mount in mounts]) for words, unit, of in _MOUNT]
+        found.append(_compared(f"{side} mount, vertical", rows, names))
+    return found
+
+
+def _compared(title, rows, names):
+    """Return a table of rows (words, numbers), those left out of which there are no numbers."""
+    cells = [
+        (words, number(values[0]), *(f"{number(value)} ({change(value, values[0])})" for value in values[1:]))
+        for words, values in rows
+        if any(map(isfinite, values))
+    ]
+    return Table((title, *names), cells)
+
+
+def _spaced(key):
+    return key.replace("_", " ")
+
+
+def _whole(text):
+    try:
+        return int(float(text))
+    except (ValueError, OverflowError):
+        return 0
