@@ -7,6 +7,7 @@ import click
 from mr_mount_controller.laws import find_law, known_laws
 from mr_mount_controller.parameters import ParameterError
 
+from .bag_cli import bag
 from .option_types import FiniteRange
 from .road.iso8608 import CLASSES
 from .study_cli import study
@@ -95,6 +96,7 @@ def vehicle(vehicle, out):
         sys.exit(1)
 
 
+main.add_command(bag)
 main.add_command(study)
 
 if __name__ == "__main__":
