@@ -119,11 +119,14 @@ def start(tmp_path, env):
 
 @pytest.fixture
 def start_node(start):
-    """Start one of the nodes by its installed executable: `start_node("simulator", speed=5.0)`."""
+    """Start one of the nodes by its installed executable: `start_node("simulator", speed=5.0)`.
 
-    def make(name, *arguments, **parameters):
+    `before` are words of a command that runs it.
+    """
+
+    def make(name, *arguments, before=(), **parameters):
         package = PACKAGES[name]
-        command = [f"{get_package_prefix(package)}/lib/{package}/{name}", *arguments, "--ros-args"]
+        command = [*before, f"{get_package_prefix(package)}/lib/{package}/{name}", *arguments, "--ros-args"]
         for parameter, value in parameters.items():
             command += ["-p", f"{parameter}:={str(value).lower() if isinstance(value, bool) else value}"]
         return start(command)
@@ -137,10 +140,10 @@ class Observer:
     def __init__(self, domain):
         self._context = rclpy.Context()
         rclpy.init(context=self._context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
-        self._node = rclpy.create_node("observer", context=self._context)
+        self.node = rclpy.create_node("observer", context=self._context)
         self._executor = EventsExecutor(context=self._context)
-        self._executor.add_node(self._node)
-        self._node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, 1000)
+        self._executor.add_node(self.node)
+        self.node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, 1000)
         self.values = {}  # latest diagnostics, as text
 
     def _on_diagnostics(self, message):
@@ -160,7 +163,7 @@ class Observer:
 
     def call(self, name):
         """Call a service of the simulator; returns its response."""
-        client = self._node.create_client(Trigger, f"simulator/{name}")
+        client = self.node.create_client(Trigger, f"simulator/{name}")
         self.wait_until(client.service_is_ready)
         future = client.call_async(Trigger.Request())
         self.wait_until(future.done)
@@ -168,7 +171,7 @@ class Observer:
 
     def clean_up(self):
         self._executor.shutdown()
-        self._node.destroy_node()
+        self.node.destroy_node()
         rclpy.try_shutdown(context=self._context)
 
 

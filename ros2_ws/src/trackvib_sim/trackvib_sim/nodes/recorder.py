@@ -117,7 +117,8 @@ class RecorderNode(LoopNode):
             if self._take_all():
                 self._report()
             if self.settings["pattern"] and time.monotonic() - looked > _LOOK:
-                self._take_up(self._choice.present())
+                for name in self._take_up(self._choice.present()):
+                    self.get_logger().info(f"{name} has appeared and is recorded, too")
                 looked = time.monotonic()
             if self._undescribed:
                 self._describe(self._topics)
@@ -170,8 +171,9 @@ class RecorderNode(LoopNode):
             self._bag.add_provenance(f"parameters of {name}", {"": "not told"} if parameters is None else parameters)
 
     def _take_up(self, names):
-        """Subscribe to topics that are new."""
-        for name in sorted(set(names) - set(self._topics) - self._refused):
+        """Subscribe to topics that are new; returns their names."""
+        new = sorted(set(names) - set(self._topics) - self._refused)
+        for name in new:
             try:
                 topic, subscription = subscribe(self, name, self._on_message)
             except ValueError as error:
@@ -182,6 +184,7 @@ class RecorderNode(LoopNode):
             self._taken.append(subscription)
             self._announce(topic)
             self._undescribed = True
+        return [name for name in new if name in self._topics]
 
     def _announce(self, topic):
         self._bag.add_topic(topic.name, topic.type_name, topic.qos, topic.type_hash)
