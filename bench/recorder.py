@@ -81,7 +81,12 @@ class Counter(LoopNode):
 def measure(name, command, bag, rate, seconds):
     """Run one contender against the load; returns how many messages it has and its CPU time [s]."""
     contender = subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # not ignored, as in a script's background
     )
     load = [sys.executable, __file__, "--role", "publish", "--rate", str(rate), "--seconds", str(seconds)]
     try:

@@ -35,7 +35,7 @@ setup(
         "rosbags",
         "scipy",
     ],
-    extras_require={"test": ["hypothesis", "pytest"]},
+    extras_require={"test": ["hypothesis", "mcap-ros2-support", "pytest"]},
     zip_safe=True,
     entry_points={
         "console_scripts": [

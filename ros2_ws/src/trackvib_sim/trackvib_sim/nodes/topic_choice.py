@@ -12,7 +12,7 @@ from rclpy.validate_topic_name import validate_topic_name
 from ..bags.qos import qos_record
 from . import topics
 
-_DEPTH = 1000  # messages that may wait
+_DEPTH = 10_000  # messages that may wait: a disk may stand still for a moment
 
 
 class Topic(NamedTuple):
