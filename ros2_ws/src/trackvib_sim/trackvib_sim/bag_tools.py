@@ -37,12 +37,12 @@ def mend(path):
         task = progress.add_task("repairing")
         done = repair(path, lambda read, size: progress.update(task, completed=read, total=size))
     for file in done.files:
-        chunks = f" {file.damaged_chunks} chunks with a wrong checksum are left out." if file.damaged_chunks else ""
-        console.print(
-            f"{file.file}: {file.messages} messages kept, index restored. Its last {file.unread} bytes were no whole "
-            f"record; what could be read of them is kept.{chunks} The file as it was: {file.original.name}",
-            soft_wrap=True,
-        )
+        words = [f"{file.file}: {file.messages} messages kept, index restored."]
+        if file.unread:
+            words.append(f"Its last {file.unread} bytes were no whole record; what could be read of them is kept.")
+        if file.damaged_chunks:
+            words.append(f"Chunks with a wrong checksum, which are left out: {file.damaged_chunks}.")
+        console.print(*words, f"The file as it was: {file.original.name}", soft_wrap=True)
     if done.metadata:
         console.print("metadata.yaml written", soft_wrap=True)
     elif not done.files:

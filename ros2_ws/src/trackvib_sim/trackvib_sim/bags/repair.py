@@ -2,6 +2,7 @@
 
 import fcntl
 from contextlib import contextmanager
+from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
@@ -10,7 +11,7 @@ from mcap import records
 from mcap.writer import MCAP0_MAGIC, CompressionType, Writer
 
 from .metadata import summary_of, write_metadata
-from .salvage import Salvage, is_sound
+from .salvage import DAMAGE, Salvage, is_sound
 from .writing import CHUNK, LIBRARY, BagError
 
 _TELL = 1000  # records between two calls of `told`
@@ -87,7 +88,7 @@ def _repair_file(file, told):
         salvage = Salvage(stream, size)
         try:
             with part.open("wb") as target:
-                messages = _copy(salvage, target, lambda: told(stream.tell(), size))
+                messages = _copy(chain(_announced(file), salvage.records()), target, lambda: told(stream.tell(), size))
             file.rename(original)
             part.replace(file)
         finally:
@@ -114,11 +115,20 @@ def _alone(stream):
     yield
 
 
-def _copy(salvage, target, told):
-    """Write all whole records to a new file, with an index; returns how many messages."""
+def _announced(file):
+    """Return schemas and channels from the index, if it can be read: the chunk that announces them may be damaged."""
+    try:
+        summary = summary_of(file)
+    except (OSError, *DAMAGE):  # OSError: shorter than a footer
+        summary = None
+    return [] if summary is None else [*summary.schemas.values(), *summary.channels.values()]
+
+
+def _copy(whole, target, told):
+    """Write whole records to a new file, with an index; returns how many messages."""
     writer = Writer(target, chunk_size=CHUNK, compression=CompressionType.ZSTD)
     header, schemas, channels, messages = None, {0: 0}, {}, 0
-    for number, record in enumerate(salvage.records()):
+    for number, record in enumerate(whole):
         if number % _TELL == 0:
             told()
         match record:

@@ -64,7 +64,8 @@ def is_sound(file):
     """Return whether a file is whole: every record, every chunk's checksum, and the index."""
     try:
         with file.open("rb") as stream:
-            for record in StreamReader(stream, emit_chunks=True, validate_crcs=True).records:
+            size = file.stat().st_size
+            for record in StreamReader(stream, emit_chunks=True, validate_crcs=True, record_size_limit=size).records:
                 if isinstance(record, Chunk):
                     get_chunk_data_stream(record, validate_crc=True)
         return summary_of(file) is not None
