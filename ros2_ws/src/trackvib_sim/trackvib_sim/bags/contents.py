@@ -7,7 +7,7 @@ from typing import NamedTuple
 from mcap.exceptions import McapError
 from mcap.reader import make_reader
 
-from .metadata import summary_of
+from .metadata import channels, summary_of
 from .repair import bag_files
 from .writing import BagError
 
@@ -38,9 +38,9 @@ def contents(path):
     summaries = [_summary(file) for file in files]
     types, counts = {}, Counter()
     for summary in summaries:
-        for channel in summary.channels.values():
-            types[channel.topic] = summary.schemas[channel.schema_id].name
-            counts[channel.topic] += summary.statistics.channel_message_counts.get(channel.id, 0)
+        for channel, type_name, count in channels(summary):
+            types[channel.topic] = type_name
+            counts[channel.topic] += count
     filled = [summary.statistics for summary in summaries if summary.statistics.message_count]
     return Contents(
         files=files,

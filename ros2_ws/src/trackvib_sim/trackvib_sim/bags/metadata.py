@@ -28,6 +28,13 @@ def write_metadata(folder, summaries):
     part.replace(Path(folder) / "metadata.yaml")
 
 
+def channels(summary):
+    """Yield each channel of a file with the name of its type and its number of messages."""
+    for channel in summary.channels.values():
+        schema = summary.schemas.get(channel.schema_id)
+        yield channel, schema.name if schema else "", summary.statistics.channel_message_counts.get(channel.id, 0)
+
+
 def to_yaml(data):
     """Return YAML text in the order of `data`."""
     return yaml.dump(data, Dumper=_Plain, sort_keys=False, allow_unicode=True)
@@ -36,9 +43,9 @@ def to_yaml(data):
 def _information(summaries):
     topics, counts = {}, Counter()
     for summary in summaries.values():
-        for channel in summary.channels.values():
-            topics.setdefault(channel.topic, (summary.schemas[channel.schema_id].name, channel))
-            counts[channel.topic] += summary.statistics.channel_message_counts.get(channel.id, 0)
+        for channel, type_name, count in channels(summary):
+            topics.setdefault(channel.topic, (type_name, channel))
+            counts[channel.topic] += count
     return {
         "version": 9,
         "storage_identifier": "mcap",
@@ -49,7 +56,7 @@ def _information(summaries):
                     "name": topic,
                     "type": type_name,
                     "serialization_format": channel.message_encoding,
-                    "offered_qos_profiles": yaml.safe_load(channel.metadata.get("offered_qos_profiles", "[]")),
+                    "offered_qos_profiles": yaml.safe_load(channel.metadata.get("offered_qos_profiles", "")) or [],
                     "type_description_hash": channel.metadata.get("topic_type_hash", ""),
                 },
                 "message_count": counts[topic],

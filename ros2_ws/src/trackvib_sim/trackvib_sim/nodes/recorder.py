@@ -70,8 +70,8 @@ class RecorderNode(LoopNode):
         self._epoch = 1
         self._bag = None
         self._topics = {}  # what the bag is told of each, by name
-        self._refused = set()  # topics that cannot be recorded
-        self._taken = []
+        self._refused = set()  # topics found by the pattern that cannot be recorded
+        self._taken = []  # subscriptions
         self._described = set()  # nodes whose parameters the bag at hand has
         self._undescribed = False  # whether there may be more
         self._times = Timekeeping()
@@ -177,8 +177,10 @@ class RecorderNode(LoopNode):
             try:
                 topic, subscription = subscribe(self, name, self._on_message)
             except ValueError as error:
+                if name in self._choice.named:
+                    raise NodeError(f"{name} cannot be recorded: {error}") from None
                 self._refused.add(name)
-                self.get_logger().error(f"{name} is not recorded: {error}")
+                self.get_logger().warning(f"{name} is not recorded: {error}")
                 continue
             self._topics[name] = topic
             self._taken.append(subscription)

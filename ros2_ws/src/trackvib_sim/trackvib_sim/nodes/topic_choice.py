@@ -35,12 +35,17 @@ class TopicChoice:
         Topics to wait for; empty texts are passed over.
     pattern : str
         Regular expression; empty for none. The recorder's own topic is never found by it.
+
+    Attributes
+    ----------
+    named : set
+        Full names of the topics to wait for.
     """
 
     def __init__(self, node, names, pattern):
         self._node = node
         try:
-            self._named = {node.resolve_topic_name(name) for name in names if name and validate_topic_name(name)}
+            self.named = {node.resolve_topic_name(name) for name in names if name and validate_topic_name(name)}
         except InvalidTopicNameException as error:
             raise ParameterError(f"recorder: parameter 'topics' is {names!r}, accepted are names: {error}") from None
         try:
@@ -49,17 +54,17 @@ class TopicChoice:
             raise ParameterError(
                 f"recorder: parameter 'pattern' is {pattern!r}, accepted are regular expressions: {error}"
             ) from None
-        if not self._named and self._pattern is None:
+        if not self.named and self._pattern is None:
             raise ParameterError("recorder: parameters 'topics' and 'pattern' are empty, nothing is to be recorded")
         self._own = node.resolve_topic_name(topics.RECORDED)
 
     def __str__(self):
         found = [f"topics like '{self._pattern.pattern}'"] if self._pattern else []
-        return ", ".join(sorted(self._named) + found)
+        return ", ".join(sorted(self.named) + found)
 
     def present(self):
         """Return the names of all topics of the choice that have a publisher."""
-        names = set(self._named)
+        names = set(self.named)
         if self._pattern:
             known = dict(self._node.get_topic_names_and_types())
             names |= {name for name in known if self._pattern.search(name) and name != self._own}
@@ -68,7 +73,7 @@ class TopicChoice:
     def complete(self):
         """Return whether all named topics are there, and any at all."""
         present = self.present()
-        return bool(present) and self._named <= present
+        return bool(present) and self.named <= present
 
 
 def subscribe(node, name, on_message):
