@@ -140,11 +140,16 @@ class Observer:
     def __init__(self, domain):
         self._context = rclpy.Context()
         rclpy.init(context=self._context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
-        self.node = rclpy.create_node("observer", context=self._context)
+        self._node = rclpy.create_node("observer", context=self._context)
         self._executor = EventsExecutor(context=self._context)
-        self._executor.add_node(self.node)
-        self.node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, 1000)
+        self._executor.add_node(self._node)
+        self._node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, 1000)
         self.values = {}  # latest diagnostics, as text
+
+    @property
+    def node(self):
+        """Its node, for further topics."""
+        return self._node
 
     def _on_diagnostics(self, message):
         self.values = {pair.key: pair.value for pair in message.status[0].values}
@@ -163,7 +168,7 @@ class Observer:
 
     def call(self, name):
         """Call a service of the simulator; returns its response."""
-        client = self.node.create_client(Trigger, f"simulator/{name}")
+        client = self._node.create_client(Trigger, f"simulator/{name}")
         self.wait_until(client.service_is_ready)
         future = client.call_async(Trigger.Request())
         self.wait_until(future.done)
@@ -171,7 +176,7 @@ class Observer:
 
     def clean_up(self):
         self._executor.shutdown()
-        self.node.destroy_node()
+        self._node.destroy_node()
         rclpy.try_shutdown(context=self._context)
 
 
