@@ -119,11 +119,14 @@ def start(tmp_path, env):
 
 @pytest.fixture
 def start_node(start):
-    """Start one of the nodes by its installed executable: `start_node("simulator", speed=5.0)`."""
+    """Start one of the nodes by its installed executable: `start_node("simulator", speed=5.0)`.
 
-    def make(name, *arguments, **parameters):
+    `before` are words of a command that runs it.
+    """
+
+    def make(name, *arguments, before=(), **parameters):
         package = PACKAGES[name]
-        command = [f"{get_package_prefix(package)}/lib/{package}/{name}", *arguments, "--ros-args"]
+        command = [*before, f"{get_package_prefix(package)}/lib/{package}/{name}", *arguments, "--ros-args"]
         for parameter, value in parameters.items():
             command += ["-p", f"{parameter}:={str(value).lower() if isinstance(value, bool) else value}"]
         return start(command)
@@ -142,6 +145,11 @@ class Observer:
         self._executor.add_node(self._node)
         self._node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, 1000)
         self.values = {}  # latest diagnostics, as text
+
+    @property
+    def node(self):
+        """Its node, for further topics."""
+        return self._node
 
     def _on_diagnostics(self, message):
         self.values = {pair.key: pair.value for pair in message.status[0].values}

@@ -47,6 +47,8 @@ def test_waits_and_ends_cleanly(start_node, tmp_path, name, number):
         ("controller", {"law": "hybrid", "soft_current": 2.0, "firm_current": 1.0}, ["'soft_current'", "2.0", "1 A"]),
         ("recorder", {"bag": "/proc/none/bag"}, ["/proc/none/bag", "cannot be made"]),
         ("recorder", {"topics": "['bad topic']"}, ["'topics'", "bad topic"]),
+        ("recorder", {"pattern": "'['"}, ["'pattern'", "'['", "regular expressions"]),
+        ("recorder", {"compression": "gzip"}, ["'compression'", "'gzip'", "zstd, none"]),
         ("recorder", {"topicz": 3}, ["'topicz'", "known are", "topics"]),
         ("controller", {"sample_rate": 300}, ["'sample_rate'", "300", "divisors"]),
     ],

@@ -3,16 +3,22 @@
 import json
 import subprocess
 import sys
+from array import array
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
 import pytest
 import yaml
 from mcap.reader import make_reader
+from mcap_ros2.reader import read_ros2_messages
 from mr_mount_controller.laws.skyhook import Skyhook
+from rclpy.serialization import deserialize_message
+from rosbags.highlevel import AnyReader
 from rosbags.rosbag2 import Reader
 from trackvib_sim.bags.recording import read_recording
 from trackvib_sim.installed import default_vehicle_file
+from trackvib_sim.nodes.topic_choice import message_type
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.closed_loop import run_closed_loop
 from trackvib_sim.simulation.settings import NANO, Rates, RunSettings
@@ -123,6 +129,35 @@ def test_bag_is_a_ros2_mcap(first):
         assert summary.schemas[channel.schema_id].encoding == "ros2msg"
         offered = yaml.safe_load(channel.metadata["offered_qos_profiles"])
         assert offered[0]["reliability"] == ("best_effort" if channel.topic == "/clock" else "reliable")
+
+
+def test_every_reader_reads_the_same(first):
+    """rosbags by folder and by file, mcap, and its ROS 2 decoder give the same messages, each of which decodes."""
+    folder = first[0] / "bag"
+    file = next(folder.glob("*.mcap"))
+    with file.open("rb") as stream:
+        expected = {(c.topic, m.log_time, m.data) for _, c, m in make_reader(stream).iter_messages()}
+    with Reader(folder) as by_folder, AnyReader([file]) as by_file:
+        for reader in (by_folder, by_file):
+            assert {(c.topic, time, bytes(data)) for c, time, data in reader.messages()} == expected
+        for topic in {topic for topic, _, _ in expected}:
+            theirs = read_ros2_messages(file, topics=[topic])
+            ours = by_file.messages([c for c in by_file.connections if c.topic == topic])
+            for (connection, time, data), other in zip(islice(ours, 200), theirs, strict=False):
+                assert other.log_time_ns == time
+                ros = deserialize_message(bytes(data), message_type(connection.msgtype))
+                assert alike(ros, by_file.deserialize(data, connection.msgtype), other.ros_msg), topic
+
+
+def alike(ours, *others):
+    """Return whether messages as different libraries decode them have the same values; the first one is of ROS 2."""
+    if hasattr(ours, "get_fields_and_field_types"):
+        names = ours.get_fields_and_field_types()
+        return all(alike(*(getattr(each, name) for each in (ours, *others))) for name in names)
+    if isinstance(ours, list | array | np.ndarray):
+        return all(alike(*each) for each in zip(ours, *others, strict=True))
+    value = ours[0] if isinstance(ours, bytes) else ours  # rclpy's word for a field of type `byte`
+    return all(other == value for other in others)
 
 
 def test_bag_knows_what_made_it(drive):

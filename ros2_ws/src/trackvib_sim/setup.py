@@ -40,7 +40,7 @@ setup(
         "scipy",
         "zstandard",
     ],
-    extras_require={"test": ["html5lib", "hypothesis", "pytest", "selenium"]},
+    extras_require={"test": ["html5lib", "hypothesis", "mcap-ros2-support", "pytest", "selenium"]},
     zip_safe=True,
     entry_points={
         "console_scripts": [

@@ -8,6 +8,7 @@ from mr_mount_controller.laws import find_law, known_laws
 from mr_mount_controller.parameters import ParameterError
 
 from .analyze_cli import analyze
+from .bag_cli import bag
 from .option_types import FiniteRange
 from .road.iso8608 import CLASSES
 from .study_cli import study
@@ -97,6 +98,7 @@ def vehicle(vehicle, out):
 
 
 main.add_command(analyze)
+main.add_command(bag)
 main.add_command(study)
 
 if __name__ == "__main__":

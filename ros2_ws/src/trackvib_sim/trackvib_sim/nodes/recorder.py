@@ -4,23 +4,21 @@ import os
 import sys
 import time
 from datetime import datetime
-from importlib import import_module
 
 from builtin_interfaces.msg import Time
 from mr_mount_controller.node_support import LATCHED_QOS, LoopNode, NodeError, run_node
-from mr_mount_controller.parameters import Parameter, ParameterError
-from rclpy.exceptions import InvalidTopicNameException
-from rclpy.parameter import parameter_value_to_python
-from rclpy.parameter_client import AsyncParameterClient
-from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
-from rclpy.validate_topic_name import validate_topic_name
+from mr_mount_controller.parameters import Parameter
+from rclpy.clock import Clock, ClockType
+from rclpy.serialization import deserialize_message
 
-from ..bags.qos import qos_record
-from ..bags.stamps import leading_stamp
+from ..bags.metadata import to_yaml
+from ..bags.timekeeping import Timekeeping
 from ..bags.versions import versions
-from ..bags.writing import BagError, BagWriter
+from ..bags.writing import COMPRESSIONS, BagError, BagWriter
 from ..simulation.settings import NANO
 from . import topics
+from .provenance import is_known, parameter_file, parameters_of, publishing_nodes
+from .topic_choice import TopicChoice, message_type, subscribe
 
 DEFAULT_TOPICS = [
     topics.CHASSIS_IMU,
@@ -40,16 +38,21 @@ PARAMETERS = (
         "Folder of the bag; empty for bag_<date and time> where the node was started. Each further epoch goes to one "
         "of its own, <bag>_epoch_2 and so on.",
     ),
-    Parameter("topics", DEFAULT_TOPICS, "Topics to record; recording starts when all of them are there."),
+    Parameter(
+        "topics", DEFAULT_TOPICS, "Topics to record; recording starts when all of them are there. [''] for none."
+    ),
+    Parameter(
+        "pattern",
+        "",
+        "Regular expression; further topics in whose full name it is found are recorded as soon as they appear.",
+    ),
+    Parameter("compression", "zstd", "How the chunks of the bag are compressed.", choices=tuple(COMPRESSIONS)),
+    Parameter("chunk_size", 1024, "Size of a chunk before compression.", "KiB", 16, 65536),
 )
-# Their stamps are the simulation's own time, and go up by so many ns at least from message to message of one topic. If
-# they do not, the simulation has begun anew.
-_TIMEKEEPERS = {"sensor_msgs/msg/Imu": 1, "rosgraph_msgs/msg/Clock": 0, "nav_msgs/msg/Odometry": 0}
-_DEPTH = 1000  # messages that may wait
-_SERVICE_TIMEOUT = 2.0  # s, for a node to tell its parameters
-_UNKNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's word for it
 _NAMES_TIMEOUT = 3.0  # s
 _REST = 0.02  # s between looks; waking for every message would take the processor from the loop
+_FLUSH = 0.5  # s; a recorder that is killed loses this much and a look at most
+_LOOK = 0.5  # s between looks for further topics
 _NICE = 10
 _QUIET = 0.2  # s without a message after which nothing more is expected at the end
 
@@ -62,64 +65,138 @@ class RecorderNode(LoopNode):
 
     def __init__(self):
         super().__init__("recorder", PARAMETERS)
-        self._wanted = self._resolve(self.settings["topics"])
+        self._choice = TopicChoice(self, self.settings["topics"], self.settings["pattern"])
         self._path = self.settings["bag"] or f"bag_{datetime.now():%Y%m%dT%H%M%S}"
         self._epoch = 1
         self._bag = None
-        self._topics = []  # what the bag is told of each
-        self._described = False  # the bag at hand knows what makes its messages
-        self._times = {}  # latest stamp of each timekeeper in this epoch, ns
+        self._topics = {}  # what the bag is told of each, by name
+        self._refused = set()  # topics found by the pattern that cannot be recorded
+        self._taken = []  # subscriptions
+        self._described = set()  # nodes whose parameters the bag at hand has
+        self._undescribed = False  # whether there may be more
+        self._times = Timekeeping()
         self._recorded = self.create_publisher(Time, topics.RECORDED, LATCHED_QOS)
-        self._matched = []  # one function a subscription: whether a publisher is connected
-        self._latest = 0  # stamp, ns
         self._received = 0
+        self.create_timer(_FLUSH, self._flush, clock=Clock(clock_type=ClockType.STEADY_TIME))
 
     def run(self):
         """Make the bag, wait for every topic, write down where it comes from, record until told to stop."""
-        self._bag = self._new_bag(self._path)
-        self.get_logger().info(f"waiting for {', '.join(sorted(self._wanted))}")
-        if not self.spin_until(lambda: all(map(self.get_publishers_info_by_topic, self._wanted))):
+        try:
+            self._open(self._path)
+            self.get_logger().info(f"waiting for {self._choice}")
+            if self.spin_until(self._choice.complete):
+                self._record()
+        except OSError as error:
+            raise self._given_up(error) from None
+
+    def close(self):
+        """Take what has arrived already, then complete the bag."""
+        if self._bag is None:
             return
-        # names of nodes come a moment after their publishers; what is not a node never has one
-        self.spin_until(lambda: not any(_UNKNOWN in name for name in self._publishing_nodes()), _NAMES_TIMEOUT)
-        self._describe()
-        for topic in sorted(self._wanted):
-            self._subscribe(topic)
-        self.spin_until(lambda: all(matched() for matched in self._matched))
+        try:
+            last = time.monotonic()
+            while time.monotonic() - last < _QUIET:
+                self.spin_once(_QUIET / 10)
+                if self._take_all():
+                    last = time.monotonic()
+            self._complete()
+        except OSError as error:
+            raise self._given_up(error) from None
+
+    def _record(self):
+        chosen = self._choice.present()
+        # what is not a node never has a name
+        self.spin_until(lambda: all(map(is_known, publishing_nodes(self, chosen))), _NAMES_TIMEOUT)
+        self._describe(chosen)  # before the loop runs: it takes its time
+        self._take_up(chosen)
+        self.spin_until(lambda: all(subscription.get_publisher_count() for subscription in self._taken))
         self._report()  # whoever waits for a recorder starts with this
-        self.get_logger().info(f"recording {len(self._wanted)} topics to {self._bag.path}")
+        self.get_logger().info(f"recording {len(self._topics)} topics to {self._bag.path}")
+        looked = time.monotonic()
         while not self.stopping():
             if self._take_all():
                 self._report()
-            if not self._described:
-                self._describe()
+            if self.settings["pattern"] and time.monotonic() - looked > _LOOK:
+                for name in self._take_up(self._choice.present()):
+                    self.get_logger().info(f"{name} has appeared and is recorded, too")
+                looked = time.monotonic()
+            if self._undescribed:
+                self._describe(self._topics)
             time.sleep(_REST)
 
-    def _new_bag(self, path):
+    def _open(self, path):
         try:
-            return BagWriter(path)
+            self._bag = BagWriter(path, self.settings["compression"], self.settings["chunk_size"] * 1024)
         except BagError as error:
             raise NodeError(str(error)) from None
-
-    def _describe(self):
-        """Write down what makes the messages."""
-        self._described = True
+        for topic in self._topics.values():
+            self._announce(topic)
         self._bag.add_provenance("versions", versions())
-        for name in self._publishing_nodes():
-            self._bag.add_provenance(f"parameters of {name}", self._parameters_of(name))
+        self._bag.add_attachment("versions.yaml", to_yaml(versions()))
+
+    def _complete(self):
+        bag, self._bag = self._bag, None
+        try:
+            bag.close()
+        except OSError as error:
+            raise NodeError(f"bag {str(bag.path)!r} is not complete: {error.strerror}") from None
+        self.get_logger().info(f"{bag.counts.total()} messages in {bag.path}")
+
+    def _given_up(self, error):
+        path, self._bag = self._bag.path, None
+        return NodeError(
+            f"bag {str(path)!r} cannot be written any more: {error.strerror}; `trackvib bag repair` completes it"
+        )
 
     def _begin_epoch(self):
         """Complete the bag and begin the next one, with the same topics."""
         self._complete()
         self._epoch += 1
-        self._bag = self._new_bag(f"{self._path}_epoch_{self._epoch}")
-        for topic in self._topics:
-            self._bag.add_topic(*topic)
-        self._described, self._times, self._latest = False, {}, 0
+        self._times, self._described, self._undescribed = Timekeeping(), set(), True
+        self._open(f"{self._path}_epoch_{self._epoch}")
         self.get_logger().info(f"the simulation has begun anew, recording to {self._bag.path}")
 
+    def _describe(self, names):
+        """Write down what makes the messages of some topics, where the bag does not have it yet."""
+        self._undescribed = False
+        for name in publishing_nodes(self, names):
+            if name in self._described:
+                continue
+            self._described.add(name)
+            parameters = parameters_of(self, name)
+            if parameters is None:
+                self.get_logger().warning(f"{name} does not tell its parameters; the bag goes without them")
+            else:
+                self._bag.add_attachment(f"parameters{name}.yaml", parameter_file(name, parameters))
+            self._bag.add_provenance(f"parameters of {name}", {"": "not told"} if parameters is None else parameters)
+
+    def _take_up(self, names):
+        """Subscribe to topics that are new; returns their names."""
+        new = sorted(set(names) - set(self._topics) - self._refused)
+        for name in new:
+            try:
+                topic, subscription = subscribe(self, name, self._on_message)
+            except ValueError as error:
+                if name in self._choice.named:
+                    raise NodeError(f"{name} cannot be recorded: {error}") from None
+                self._refused.add(name)
+                self.get_logger().warning(f"{name} is not recorded: {error}")
+                continue
+            self._topics[name] = topic
+            self._taken.append(subscription)
+            self._announce(topic)
+            self._undescribed = True
+        return [name for name in new if name in self._topics]
+
+    def _announce(self, topic):
+        self._bag.add_topic(topic.name, topic.type_name, topic.qos, topic.type_hash)
+
+    def _flush(self):
+        if self._bag is not None:
+            self._bag.flush()
+
     def _report(self):
-        seconds, nanoseconds = divmod(self._latest, NANO)
+        seconds, nanoseconds = divmod(self._times.complete_until, NANO)
         self._recorded.publish(Time(sec=seconds, nanosec=nanoseconds))
 
     def _take_all(self):
@@ -131,90 +208,17 @@ class RecorderNode(LoopNode):
                 return before > start
             before = self._received
 
-    def close(self):
-        """Take what has arrived already, then complete the bag."""
+    def _on_message(self, topic, data):
         if self._bag is None:
             return
-        last = time.monotonic()
-        while time.monotonic() - last < _QUIET:
-            self.spin_once(_QUIET / 10)
-            if self._take_all():
-                last = time.monotonic()
-        self._complete()
-
-    def _complete(self):
-        try:
-            self._bag.close()
-        except OSError as error:
-            raise NodeError(f"bag {str(self._bag.path)!r} is not complete: {error.strerror}") from None
-        self.get_logger().info(f"{self._bag.counts.total()} messages in {self._bag.path}")
-
-    def _subscribe(self, topic):
-        infos = self.get_publishers_info_by_topic(topic)
-        offers = [info.qos_profile for info in infos]
-        qos = QoSProfile(depth=_DEPTH)
-        # take all that every publisher can give
-        if all(offer.durability == QoSDurabilityPolicy.TRANSIENT_LOCAL for offer in offers):
-            qos.durability = QoSDurabilityPolicy.TRANSIENT_LOCAL
-        if any(offer.reliability == QoSReliabilityPolicy.BEST_EFFORT for offer in offers):
-            qos.reliability = QoSReliabilityPolicy.BEST_EFFORT
-        type_name = infos[0].topic_type
-        self._topics.append(
-            (topic, type_name, [qos_record(offer) for offer in offers], str(infos[0].topic_type_hash))
-        )
-        self._bag.add_topic(*self._topics[-1])
-        package, kind, name = type_name.split("/")
-        message_type = getattr(import_module(f"{package}.{kind}"), name)
-        first_field = next(iter(message_type.get_fields_and_field_types().values()))
-        stamped = first_field in ("std_msgs/Header", "builtin_interfaces/Time")
-        least_step = _TIMEKEEPERS.get(type_name)
-        subscription = self.create_subscription(
-            message_type, topic, lambda data: self._on_message(topic, stamped, least_step, data), qos, raw=True
-        )
-        self._matched.append(lambda: subscription.get_publisher_count() > 0)
-
-    def _on_message(self, topic, stamped, least_step, data):
-        stamp = leading_stamp(data) if stamped else 0
-        if least_step is None or stamp < least_step:
-            stamp = stamp or self._latest  # a stamp of zero is one that nobody filled in
-        else:
-            if stamp < self._times.get(topic, 0) + least_step:
-                self._begin_epoch()
-            self._times[topic] = stamp
-            self._latest = max(self._latest, stamp)
-        self._write(topic, stamp, data)
+        time_in_bag = self._times.add(topic.name, topic.type_name, topic.stamped, data)
+        if time_in_bag is None:
+            self._begin_epoch()
+            time_in_bag = self._times.add(topic.name, topic.type_name, topic.stamped, data)
+        self._bag.write(topic.name, time_in_bag, data)
         self._received += 1
-
-    def _write(self, topic, stamp, data):
-        try:
-            self._bag.write(topic, stamp, data)
-        except OSError as error:
-            path, self._bag = self._bag.path, None
-            raise NodeError(f"bag {str(path)!r} cannot be written any more: {error.strerror}") from None
-
-    def _resolve(self, names):
-        try:
-            return {self.resolve_topic_name(name) for name in names if validate_topic_name(name)}
-        except InvalidTopicNameException as error:
-            raise ParameterError(f"recorder: parameter 'topics' is {names!r}, accepted are names: {error}") from None
-
-    def _publishing_nodes(self):
-        infos = (info for topic in sorted(self._wanted) for info in self.get_publishers_info_by_topic(topic))
-        return sorted({f"{info.node_namespace.rstrip('/')}/{info.node_name}" for info in infos})
-
-    def _parameters_of(self, name):
-        """Ask a node for its parameters; one that does not tell (or is no ROS 2 node) is recorded as silent."""
-        client = AsyncParameterClient(self, name)
-        names = self._result(client.list_parameters())
-        if names is None:
-            self.get_logger().warning(f"{name} does not tell its parameters; the bag goes without them")
-            return {"": "not told"}
-        names = sorted(names.result.names)
-        values = self._result(client.get_parameters(names))
-        return dict(zip(names, map(parameter_value_to_python, values.values), strict=True)) if values else {}
-
-    def _result(self, future):
-        return future.result() if self.spin_until(future.done, _SERVICE_TIMEOUT) else None
+        if topic.name.endswith(topics.VEHICLE_DESCRIPTION):
+            self._bag.add_attachment("vehicle.yaml", deserialize_message(data, message_type(topic.type_name)).data)
 
 
 def main(args=None):

@@ -1,0 +1,65 @@
+"""Property and analytic: what the stamps of recorded messages tell."""
+
+import pytest
+from builtin_interfaces.msg import Time
+from hypothesis import given
+from hypothesis import strategies as st
+from rclpy.serialization import serialize_message
+from trackvib_sim.bags.timekeeping import Timekeeping
+
+IMU, MOUNTS = "sensor_msgs/msg/Imu", "trackvib_msgs/msg/MountState"
+CLOCK, ANSWER = "rosgraph_msgs/msg/Clock", "trackvib_msgs/msg/CoilCurrent"
+PERIODS = [("/chassis/imu", IMU), ("/powertrain/imu", IMU), ("/mount_state", MOUNTS)]
+MS = 1_000_000
+
+
+def stamped(stamp):
+    return serialize_message(Time(sec=stamp // 10**9, nanosec=stamp % 10**9))
+
+
+@pytest.mark.property
+@given(st.lists(st.sampled_from([0, 1, 2]), min_size=1, max_size=60))
+def test_progress_is_that_of_the_slowest_topic(order):
+    """In whatever order the topics' messages come, all that every topic has up to `complete_until` has come."""
+    times, count = Timekeeping(), [0, 0, 0]
+    for which in order:
+        count[which] += 1
+        topic, type_name = PERIODS[which]
+        assert times.add(topic, type_name, True, stamped(count[which] * MS)) == count[which] * MS
+        times.add("/clock", CLOCK, True, stamped(max(count) * MS))
+        assert times.complete_until == min(each for each in count if each) * MS
+        assert times.latest == max(count) * MS
+
+
+def test_without_topics_of_every_period():
+    """The latest of all stamps counts."""
+    times = Timekeeping()
+    assert times.complete_until == 0
+    times.add("/clock", CLOCK, True, stamped(5 * MS))
+    assert times.complete_until == 5 * MS
+
+
+def test_answers_do_not_hold_the_progress():
+    """A controller may be silent, so its answers do not count, nor do their stamps make an epoch."""
+    times = Timekeeping()
+    times.add("/chassis/imu", IMU, True, stamped(7 * MS))
+    assert times.add("/coil_current", ANSWER, True, stamped(2 * MS)) == 2 * MS
+    assert times.add("/coil_current", ANSWER, True, stamped(1 * MS)) == 1 * MS
+    assert times.complete_until == 7 * MS
+
+
+@pytest.mark.parametrize(("type_name", "same_again"), [(IMU, True), (MOUNTS, True), (CLOCK, False)])
+def test_new_epoch(type_name, same_again):
+    """Time that goes back begins one; so does a sample that comes twice, but not a clock."""
+    times = Timekeeping()
+    times.add("/topic", type_name, True, stamped(7 * MS))
+    assert (times.add("/topic", type_name, True, stamped(7 * MS)) is None) == same_again
+    assert times.add("/topic", type_name, True, stamped(6 * MS)) is None
+
+
+def test_message_without_stamp_has_that_of_the_latest():
+    """Of no stamp, and of one that nobody filled in."""
+    times = Timekeeping()
+    times.add("/chassis/imu", IMU, True, stamped(3 * MS))
+    assert times.add("/text", "std_msgs/msg/String", False, b"") == 3 * MS
+    assert times.add("/answer", ANSWER, True, stamped(0)) == 3 * MS

@@ -1,0 +1,49 @@
+"""The command line's bags: `trackvib bag VERB BAG`."""
+
+import sys
+from contextlib import contextmanager
+
+import click
+
+
+@click.group()
+def bag():
+    """Look into recorded bags, and complete those that were cut short."""
+
+
+@contextmanager
+def _ends_in_one_line():
+    from .bags.writing import BagError  # imported late: --help need not wait for it
+
+    try:
+        yield
+    except BagError as error:
+        click.echo(f"error: {error}", err=True)
+        sys.exit(1)
+    except KeyboardInterrupt:
+        click.echo("interrupted; the bag is as it was", err=True)
+        sys.exit(130)
+
+
+@bag.command()
+@click.argument("bag", type=click.Path(file_okay=False, exists=True))
+def info(bag):
+    """Show what is in a bag: topics, messages, times, and what made it."""
+    with _ends_in_one_line():
+        from .bag_tools import show  # imported late, as above
+
+        show(bag)
+
+
+@bag.command()
+@click.argument("bag", type=click.Path(file_okay=False, exists=True))
+def repair(bag):
+    """Complete a bag whose recorder was killed or whose disk was full.
+
+    Index, statistics and metadata.yaml are restored, and no whole message is lost. The file as it was is kept beside,
+    its name ending in .damaged. A sound bag is left alone.
+    """
+    with _ends_in_one_line():
+        from .bag_tools import mend  # imported late, as above
+
+        mend(bag)

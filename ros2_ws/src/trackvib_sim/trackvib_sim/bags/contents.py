@@ -1,0 +1,82 @@
+"""What is in a bag, from the indexes of its files."""
+
+from collections import Counter
+from pathlib import Path
+from typing import NamedTuple
+
+from mcap.exceptions import McapError
+from mcap.reader import make_reader
+
+from .metadata import channels, summary_of
+from .repair import bag_files
+from .writing import BagError
+
+
+class Contents(NamedTuple):
+    """A bag as its indexes tell it."""
+
+    files: list  # of Path
+    size: int  # bytes
+    compression: set  # of the chunks, as MCAP names it
+    first: int  # time of the first message, ns
+    last: int
+    types: dict  # topic -> type
+    counts: Counter  # topic -> messages
+    provenance: list  # names of metadata records
+    attachments: list  # names
+
+
+def contents(path):
+    """Return the `Contents` of a bag folder.
+
+    Raises
+    ------
+    BagError
+        It is no bag, or was cut short.
+    """
+    files = bag_files(path)
+    summaries = [_summary(file) for file in files]
+    types, counts = {}, Counter()
+    for summary in summaries:
+        for channel, type_name, count in channels(summary):
+            types[channel.topic] = type_name
+            counts[channel.topic] += count
+    filled = [summary.statistics for summary in summaries if summary.statistics.message_count]
+    return Contents(
+        files=files,
+        size=sum(file.stat().st_size for file in files),
+        compression={index.compression or "none" for summary in summaries for index in summary.chunk_indexes},
+        first=min((each.message_start_time for each in filled), default=0),
+        last=max((each.message_end_time for each in filled), default=0),
+        types=types,
+        counts=counts,
+        provenance=[index.name for summary in summaries for index in summary.metadata_indexes],
+        attachments=[index.name for summary in summaries for index in summary.attachment_indexes],
+    )
+
+
+def attachment(path, name):
+    """Return the text of an attachment of a bag folder (the last one of that name), None if it has none.
+
+    Raises
+    ------
+    BagError
+        It is no bag.
+    """
+    text = None
+    for file in bag_files(path):
+        with Path(file).open("rb") as stream:
+            for each in make_reader(stream).iter_attachments():
+                if each.name == name:
+                    text = each.data.decode()
+    return text
+
+
+def _summary(file):
+    try:
+        summary = summary_of(file)
+    except (McapError, OSError, ValueError):
+        summary = None
+    if summary is None:
+        raise BagError(f"{str(file)!r} was cut short; `trackvib bag repair` completes it")
+    return summary

@@ -1,0 +1,45 @@
+"""What the stamps of recorded messages tell: their time in the bag, how far it is complete, that a run begins anew."""
+
+from .stamps import leading_stamp
+
+# Their stamps are the simulation's own time, and go up by so many ns at least from message to message of one topic. If
+# they do not, the simulation has begun anew.
+_LEAST_STEP = {
+    "sensor_msgs/msg/Imu": 1,
+    "trackvib_msgs/msg/MountState": 1,
+    "rosgraph_msgs/msg/Clock": 0,
+    "nav_msgs/msg/Odometry": 0,
+}
+# One of each comes every period, whatever the partners do.
+_EVERY_PERIOD = ("sensor_msgs/msg/Imu", "trackvib_msgs/msg/MountState")
+
+
+class Timekeeping:
+    """Follows the stamps of one epoch."""
+
+    def __init__(self):
+        self.latest = 0  # ns, of all stamps so far
+        self._keepers = {}  # topic -> latest stamp, ns
+        self._paced = set()  # topics that come every period
+
+    @property
+    def complete_until(self):
+        """Time [ns] up to which the messages of every period are there: of several topics, the slowest."""
+        return min((self._keepers[topic] for topic in self._paced), default=self.latest)
+
+    def add(self, topic, type_name, stamped, data):
+        """Take note of a serialised message; returns its time in the bag [ns], or None if it begins a new epoch.
+
+        A message without a stamp (`stamped` false, or one that nobody filled in) has that of the latest one.
+        """
+        stamp = leading_stamp(data) if stamped else 0
+        least_step = _LEAST_STEP.get(type_name)
+        if least_step is None or stamp < least_step:
+            return stamp or self.latest
+        if stamp < self._keepers.get(topic, 0) + least_step:
+            return None
+        self._keepers[topic] = stamp
+        self.latest = max(self.latest, stamp)
+        if type_name in _EVERY_PERIOD:
+            self._paced.add(topic)
+        return stamp

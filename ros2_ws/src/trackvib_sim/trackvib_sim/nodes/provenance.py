@@ -1,0 +1,42 @@
+"""Asks other nodes for their parameters, for whoever writes down what made a bag."""
+
+from rclpy.parameter import parameter_value_to_python
+from rclpy.parameter_client import AsyncParameterClient
+
+from ..bags.metadata import to_yaml
+
+_TIMEOUT = 2.0  # s, for a node to tell its parameters
+_UNKNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's word for it
+
+
+def publishing_nodes(node, topic_names):
+    """Return the full names of all nodes that publish on some topics, sorted."""
+    infos = (info for name in topic_names for info in node.get_publishers_info_by_topic(name))
+    return sorted({f"{info.node_namespace.rstrip('/')}/{info.node_name}" for info in infos})
+
+
+def is_known(name):
+    """Return whether a node's name has arrived: it comes a moment after the node's publishers."""
+    return _UNKNOWN not in name
+
+
+def parameters_of(node, name):
+    """Ask a node for its parameters; returns values by name, None if it does not tell (or is no ROS 2 node)."""
+    client = AsyncParameterClient(node, name)
+    names = _result(node, client.list_parameters())
+    if names is None:
+        return None
+    names = sorted(names.result.names)
+    values = _result(node, client.get_parameters(names))
+    return dict(zip(names, map(parameter_value_to_python, values.values), strict=True)) if values else {}
+
+
+def parameter_file(name, parameters):
+    """Return the text of a file that `--params-file` takes to start a node with the same parameters."""
+    # of an empty list nobody can tell which type of list it is, ROS 2 neither
+    told = {key: list(value) if hasattr(value, "tolist") else value for key, value in parameters.items()}
+    return to_yaml({name: {"ros__parameters": {key: value for key, value in told.items() if value not in ([], None)}}})
+
+
+def _result(node, future):
+    return future.result() if node.spin_until(future.done, _TIMEOUT) else None

@@ -1,0 +1,215 @@
+"""The recorder with real processes: killed at any moment, on a full disk, topics by pattern, provenance, progress."""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+from builtin_interfaces.msg import Time
+from mcap.reader import make_reader
+from mcap_ros2.decoder import DecoderFactory
+from mr_mount_controller.node_support import LATCHED_QOS, LOOP_WRITER_QOS
+from rosbags.rosbag2 import Reader
+from sensor_msgs.msg import Imu
+from std_msgs.msg import String
+from trackvib_msgs.msg import MountState
+from trackvib_sim.bags.contents import attachment, contents
+from trackvib_sim.bags.repair import repair
+from trackvib_sim.installed import default_vehicle_file
+from trackvib_sim.nodes.messages import ImuMessage, MountMessage
+from trackvib_sim.vehicle.mr_mounts import new_mount_sample
+
+STREAM = Path(__file__).parent / "imu_stream.py"
+LOOP_TOPICS = ("/chassis/imu", "/powertrain/imu", "/coil_current", "/mount_state")
+SECOND, MS = 1_000_000_000, 1_000_000  # ns
+
+pytestmark = pytest.mark.system
+
+
+def counted(bag, topic):
+    """Return stamps [ns] and counts of the stream's messages in a bag."""
+    with next(bag.glob("*.mcap")).open("rb") as file:
+        decoded = make_reader(file, decoder_factories=[DecoderFactory()]).iter_decoded_messages([topic])
+        found = [(message.log_time, imu.linear_acceleration.x) for _, _, message, imu in decoded]
+    return np.array([stamp for stamp, _ in found]), np.array([count for _, count in found])
+
+
+def last_words(process):
+    """Return the one error that a process printed."""
+    assert process.output.count("error:") == 1 and "Traceback" not in process.output, process.output
+    return process.output[process.output.index("error:") :]
+
+
+@pytest.mark.parametrize(("seconds", "compression"), [(0.0, "zstd"), (0.3, "none"), (1.6, "zstd"), (2.5, "none")])
+def test_killed_recorder_loses_the_last_second_at_most(start, start_node, observer, tmp_path, seconds, compression):
+    """What it had taken a second before the kill is in the repaired bag, and nothing is missing between."""
+    told = []  # when it told up to which stamp it had everything
+
+    def on_recorded(until):
+        told.append((time.monotonic_ns(), until.sec * SECOND + until.nanosec))
+
+    observer.node.create_subscription(Time, "recorder/recorded", on_recorded, LATCHED_QOS)
+    start([sys.executable, STREAM, "stream"])
+    recorder = start_node("recorder", bag=tmp_path / "bag", topics="[stream]", compression=compression)
+    recorder.wait_for("recording 1 topics")
+    observer.wait_until(lambda: told and told[-1][1] > 0)
+    began = time.monotonic_ns()
+    observer.wait_until(lambda: time.monotonic_ns() > began + seconds * SECOND)
+    killed = time.monotonic_ns()
+    recorder.signal(signal.SIGKILL)
+    recorder.wait()
+    assert not (tmp_path / "bag" / "metadata.yaml").exists()
+    command = [sys.executable, "-m", "trackvib_sim.cli", "bag", "repair", tmp_path / "bag"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0 and "index restored" in done.stdout, done.stdout + done.stderr
+    stamps, counts = counted(tmp_path / "bag", "/stream")
+    with Reader(tmp_path / "bag") as reader:
+        assert reader.message_count == len(stamps)
+    np.testing.assert_array_equal(np.diff(counts), 1.0)
+    if seconds > 1.0:
+        assert stamps[0] < began and stamps[-1] >= max(until for when, until in told if when < killed - SECOND)
+
+
+def test_killed_recorder_of_the_loop(start_node, observer, tmp_path):
+    """The bag of a loop whose recorder was killed has its provenance, and every topic from the first sample on."""
+    start_node("road_excitation")
+    start_node("controller", law="skyhook", wait_for_recorder=True)
+    recorder = start_node("recorder", bag=tmp_path / "bag")
+    start_node("simulator", wait_for_recorder=True)
+    observer.wait_until(lambda: float(observer.values.get("time", 0.0)) > 1.5)
+    recorder.signal(signal.SIGKILL)
+    recorder.wait()
+    assert repair(tmp_path / "bag").files[0].messages > 1000
+    found = contents(tmp_path / "bag")
+    assert "parameters of /simulator" in found.provenance
+    with Reader(tmp_path / "bag") as reader:
+        for topic in LOOP_TOPICS:
+            connections = [each for each in reader.connections if each.topic == topic]
+            stamps = [stamp for _, stamp, _ in reader.messages(connections)]
+            assert stamps == [k * MS for k in range(1, len(stamps) + 1)] != [], topic
+
+
+@pytest.fixture
+def small_disk(tmp_path):
+    """A folder in which a file cannot grow beyond 300 kB, and what a command must begin with for that to hold."""
+    folder = tmp_path / "disk"
+    folder.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", "size=300k", "tmpfs", str(folder)]
+    if os.geteuid() == 0 and subprocess.run(mount, capture_output=True).returncode == 0:
+        yield folder, [], "No space left on device"
+        subprocess.run(["umount", "-l", str(folder)], check=True)
+    else:  # shared memory of DDS counts as a file, so it goes without
+        yield folder, ["env", "FASTDDS_BUILTIN_TRANSPORTS=UDPv4", "prlimit", "--fsize=300000"], "File too large"
+
+
+def test_full_disk(start, start_node, small_disk, tmp_path):
+    """One error, an exit code, and what was written can be repaired elsewhere."""
+    disk, before, words = small_disk
+    start([sys.executable, STREAM, "stream"])
+    recorder = start_node("recorder", bag=disk / "bag", topics="[stream]", compression="none", before=before)
+    assert recorder.wait() == 1
+    said = last_words(recorder)
+    assert words in said and "disk/bag" in said and "trackvib bag repair" in said
+    saved = shutil.copytree(disk / "bag", tmp_path / "saved")
+    assert repair(saved).files[0].messages > 300
+    _, counts = counted(saved, "/stream")
+    np.testing.assert_array_equal(np.diff(counts), 1.0)
+
+
+def test_disk_that_is_full_at_the_start(start_node, small_disk, tmp_path):
+    """Nothing half-made is left."""
+    disk, before, words = small_disk
+    if before:
+        before[-1] = "--fsize=0"
+    else:
+        (disk / "filler").write_bytes(bytes(290_000))
+        for k in range(1000):
+            try:
+                (disk / f"{k}").write_bytes(b"x")
+            except OSError:
+                break
+    recorder = start_node("recorder", bag=disk / "bag", before=before)
+    assert recorder.wait() == 1
+    assert re.search(rf"bag '.*disk/bag' cannot be made: {words}", last_words(recorder))
+    assert not (disk / "bag").exists()
+
+
+def test_topics_by_pattern_are_taken_up_when_they_appear(start, start_node, tmp_path):
+    """Those that are there at the start, and later ones from their first sight on; no others."""
+    start([sys.executable, STREAM, "left/imu", "left/other"])
+    recorder = start_node("recorder", bag=tmp_path / "bag", topics="['']", pattern="/imu$", chunk_size=64)
+    recorder.wait_for("recording 1 topics")
+    start([sys.executable, STREAM, "right/imu"])
+    recorder.wait_for("/right/imu has appeared")
+    time.sleep(1.0)
+    recorder.signal(signal.SIGINT)
+    assert recorder.wait() == 0, recorder.output
+    found = contents(tmp_path / "bag")
+    assert set(found.types) == {"/left/imu", "/right/imu"}
+    assert found.counts["/left/imu"] > found.counts["/right/imu"] > 100
+    for topic in found.types:
+        np.testing.assert_array_equal(np.diff(counted(tmp_path / "bag", topic)[1]), 1.0)
+    assert found.provenance.count("parameters of /imu_stream") == 1
+
+
+def test_bag_says_what_made_it(start_node, start, tmp_path):
+    """Vehicle file and parameters lie in it as files; the parameters start the same nodes again."""
+    start_node("road_excitation", seed=7, road_class="C")
+    start_node("controller", law="skyhook", firm_current=2.5, wait_for_recorder=True)
+    recorder = start_node("recorder", bag=tmp_path / "bag")
+    assert start_node("simulator", duration=0.3, speed=7.5, wait_for_recorder=True).wait() == 0
+    recorder.signal(signal.SIGINT)
+    assert recorder.wait() == 0, recorder.output
+    bag = tmp_path / "bag"
+    assert attachment(bag, "vehicle.yaml") == default_vehicle_file().read_text(encoding="utf-8")
+    assert yaml.safe_load(attachment(bag, "versions.yaml"))["numpy"] == np.__version__
+    road = yaml.safe_load(attachment(bag, "parameters/road_excitation.yaml"))
+    assert road["/road_excitation"]["ros__parameters"]["seed"] == 7
+    for name, values in (("controller", {"firm_current": 2.5, "law": "skyhook"}), ("simulator", {"speed": 7.5})):
+        text = attachment(bag, f"parameters/{name}.yaml")
+        assert values.items() <= yaml.safe_load(text)[f"/{name}"]["ros__parameters"].items()
+        (tmp_path / f"{name}.yaml").write_text(text)
+    again = start_node("controller", "--ros-args", "--params-file", tmp_path / "controller.yaml", "--")
+    again.wait_for("law 'skyhook', waiting for accelerations")
+
+
+def test_progress_is_that_of_the_slowest_topic(start_node, observer, tmp_path):
+    """A recorder that has all accelerations but lacks mount states tells how far it has both."""
+    node = observer.node
+    imus, mounts, told = ImuMessage("imu"), MountMessage(), []
+    imu_out = node.create_publisher(Imu, "chassis/imu", LOOP_WRITER_QOS)
+    mount_out = node.create_publisher(MountState, "mount_state", LOOP_WRITER_QOS)
+    node.create_subscription(Time, "recorder/recorded", lambda time: told.append(time.nanosec // MS), LATCHED_QOS)
+    recorder = start_node("recorder", bag=tmp_path / "bag", topics="[chassis/imu, mount_state]")
+    recorder.wait_for("recording 2 topics")
+    observer.wait_until(lambda: told == [0])
+    for k in range(1, 101):
+        imu_out.publish(imus.fill(k * MS, (0.0, 0.0, 9.81), (0.0, 0.0, 0.0)))
+        if k <= 40:
+            mount_out.publish(mounts.fill(k * MS, new_mount_sample()))
+    observer.wait_until(lambda: told[-1] == 40)
+    mount_out.publish(mounts.fill(70 * MS, new_mount_sample()))
+    observer.wait_until(lambda: told[-1] == 70)
+    mount_out.publish(mounts.fill(100 * MS, new_mount_sample()))
+    observer.wait_until(lambda: told[-1] == 100)
+    recorder.signal(signal.SIGINT)
+    assert recorder.wait() == 0, recorder.output
+
+
+def test_latched_text_of_another_node_is_recorded(start_node, observer, tmp_path):
+    """A topic published once before the recorder came is in the bag."""
+    publisher = observer.node.create_publisher(String, "note", LATCHED_QOS)
+    publisher.publish(String(data="told once"))
+    recorder = start_node("recorder", bag=tmp_path / "bag", topics="[note]")
+    recorder.wait_for("recording 1 topics")
+    observer.wait_until(lambda: publisher.get_subscription_count() == 1)
+    recorder.signal(signal.SIGINT)
+    assert recorder.wait() == 0, recorder.output
+    assert contents(tmp_path / "bag").counts == {"/note": 1}
