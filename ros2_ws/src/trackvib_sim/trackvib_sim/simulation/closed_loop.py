@@ -41,7 +41,7 @@ def run_closed_loop(simulation, road, law, periods):
 
     shapes = ((2, 3), (2, 3), (2,), (2,), (2, 3), (2, 3))
     record = Record(np.zeros(periods, dtype=np.int64), *(np.zeros((periods, *shape)) for shape in shapes))
-    for k, exchange in zip(range(periods), control_periods(simulation, law, feed), strict=False):
+    for k, exchange in zip(range(periods), periods_under_law(simulation, law, feed), strict=False):
         force, rate, mounts = simulation.sample.specific_force, simulation.sample.rate, simulation.sample.mounts
         record.stamp[k] = simulation.time
         record.specific_force[k], record.rate[k] = force[: POWERTRAIN + 1], rate[: POWERTRAIN + 1]
@@ -50,7 +50,7 @@ def run_closed_loop(simulation, road, law, periods):
     return record
 
 
-def control_periods(simulation, law, feed=lambda: None):
+def periods_under_law(simulation, law, feed=lambda: None):
     """Yield the `Exchange` after each control period under a control law, without end.
 
     `feed()` is called before each period, to see to the road ahead. Raises as `run_closed_loop` does.
