@@ -26,8 +26,8 @@ def _law_or_external(context, parameter, value):
               help=f"Drive again on the recorded road under another control law: {', '.join(known_laws())}, or "
                    "package.module:Class.")
 @click.option("--controller", default=None, callback=_law_or_external, metavar="LAW",
-              help=f"Give the recorded accelerations to a controller node with this law, or with '{EXTERNAL}' to the one "
-                   "that you run, and compare its currents with the recorded ones.")
+              help=f"Give the recorded accelerations to a controller node with this law, or with '{EXTERNAL}' to the "
+                   "one that you run, and compare its currents with the recorded ones.")
 @click.option("--out", type=click.Path(file_okay=False), default=None,
               help="Folder to make for --law and --controller.  [default: runs/<time>_replay_<law>]")
 def replay(bag, verify, law, controller, out):

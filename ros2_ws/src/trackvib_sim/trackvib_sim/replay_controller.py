@@ -9,12 +9,13 @@ from mr_mount_controller.node_support import LOOP_WRITER_QOS
 from rich.progress import track
 
 from .analysis.replay_pictures import currents_picture
-from .bags.copying import copy_bag, recorded_loop, sample_messages
+from .bags.copying import copy_bag
+from .bags.loop_messages import recorded_loop, sample_messages
 from .bags.qos import qos_record
 from .bags.writing import BagWriter
 from .closed_loop_run import RunError, make_folder, own_domain
 from .installed import closed_loop_parameters
-from .nodes.controller_trial import ControllerTrial
+from .nodes.controller_trial import ControllerTrial, read_answers
 from .nodes.processes import LoopProcesses
 from .simulation.settings import NANO
 
@@ -45,7 +46,8 @@ def perform(bag, law, out, console):
         finally:
             writer.close()
     summary = {"bag": str(bag), "controller": law or "external", "samples": loop.samples, "answered": len(replayed)}
-    summary |= _compare(loop.currents, replayed, folder / "currents.png", f"{Path(bag).name} into {law or 'a controller'}")
+    title = f"{Path(bag).name} into {law or 'a controller'}"
+    summary |= _compare(read_answers(loop.answers), replayed, folder / "currents.png", title)
     (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
     console.print(_words(summary), soft_wrap=True)
     console.print(f"left in {folder}: {', '.join(sorted(path.name for path in folder.iterdir()))}", soft_wrap=True)

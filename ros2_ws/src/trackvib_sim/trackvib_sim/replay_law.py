@@ -124,7 +124,8 @@ def _settling(values, provenance):
 
 
 def _recorded_law(provenance):
-    return next((told["law"] for name, told in provenance.items() if "law" in told and name != "replay"), "law not told")
+    laws = [told["law"] for name, told in provenance.items() if "law" in told and name != "replay"]
+    return laws[0] if laws else "law not told"
 
 
 def _until(recording, stamp):

@@ -54,8 +54,7 @@ def verify(bag, console):
     for stream in streams:
         odd = stream.stamp[stream.stamp % rates.period != 0]
         if odd.size:
-            stamp = odd[0] / NANO
-            raise NotVerifiable(f"{stream.topic} has the stamp {stamp:.9f} s, no multiple of the period {rates.period} ns")
+            raise NotVerifiable(f"{stream.topic} has the stamp {odd[0]} ns, no multiple of the {rates.period} ns period")
     currents = currents_in_force(simulation, recording, values["on_silence"])
     compared = [0, 0, 0]
     other = _other_versions(recording.provenance)
@@ -108,9 +107,8 @@ def _after(simulation, compared, reason):
 
 def _other_versions(provenance):
     """Return in words with which other versions a bag was made, or nothing."""
-    here = versions()
     made = provenance.get("versions", {})
-    other = [f"{name} {made[name]} (here {version})" for name, version in here.items() if made.get(name, version) != version]
+    other = [f"{name} {made[name]} (here {here})" for name, here in versions().items() if made.get(name, here) != here]
     return f"; the bag was made with {', '.join(other)}" if other else ""
 
 

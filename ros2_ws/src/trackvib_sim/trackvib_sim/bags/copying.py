@@ -5,16 +5,7 @@ from mcap.exceptions import EndOfFile
 from mcap.records import Channel, Message, Schema
 
 from .replaying import records
-from .stamps import leading_stamp
 from .writing import BagError
-
-
-def topic_ending(topics, end):
-    """Return the one of several topics whose name ends so, or None; raises BagError if there are more."""
-    found = sorted({topic for topic in topics if f"/{topic}".endswith(f"/{end}")})
-    if len(found) > 1:
-        raise BagError(f"the bag holds more than one run: {', '.join(found)}")
-    return found[0] if found else None
 
 
 def copy_bag(path, writer, wanted=lambda topic: True):
@@ -40,28 +31,6 @@ def copy_bag(path, writer, wanted=lambda topic: True):
     except EndOfFile:
         pass
     return set(topics.values())
-
-
-def sample_messages(path, chassis, powertrain):
-    """Yield stamp [ns] and both serialised Imu messages of each sample of which the bag holds both topics' message.
-
-    Raises as `replaying.records` does, but for a bag that is cut short, which ends.
-    """
-    topics, waiting = {}, {}  # names by number; messages without their partner by topic and stamp
-    partner = {chassis: powertrain, powertrain: chassis}
-    try:
-        for record in records(path):
-            if isinstance(record, Channel):
-                topics[record.id] = record.topic
-            elif isinstance(record, Message) and (topic := topics[record.channel_id]) in partner:
-                stamp = leading_stamp(record.data)
-                other = waiting.pop((partner[topic], stamp), None)
-                if other is None:
-                    waiting[topic, stamp] = record.data
-                else:
-                    yield stamp, *((record.data, other) if topic == chassis else (other, record.data))
-    except EndOfFile:
-        pass
 
 
 def _announce(channel, type_name, writer):

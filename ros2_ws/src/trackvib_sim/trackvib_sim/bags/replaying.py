@@ -190,8 +190,10 @@ def _names(fields, sides, axes):
 
 _SIDES, _AXES, _WHOLE = (("left",), ("right",)), (("x",), ("y",), ("z",)), ((),)
 _IMU_CHANNELS = _names(IMU, _WHOLE, _AXES)
-_MOUNT_CHANNELS = tuple(
-    chain.from_iterable(_names((f,), _SIDES, _AXES if f in ("deflection", "velocity", "force") else _WHOLE) for f in MOUNTS)
+_MOUNT_CHANNELS = (
+    *_names(MOUNTS[:3], _SIDES, _WHOLE),
+    *_names(MOUNTS[3:6], _SIDES, _AXES),
+    *_names(MOUNTS[6:], _SIDES, _WHOLE),
 )
 
 
