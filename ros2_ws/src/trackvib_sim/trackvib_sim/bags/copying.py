@@ -2,7 +2,7 @@
 
 import yaml
 from mcap.exceptions import EndOfFile
-from mcap.records import Channel, Message, Schema
+from mcap.records import Channel, Header, Message, Schema
 
 from .replaying import records
 from .writing import BagError
@@ -18,19 +18,24 @@ def copy_bag(path, writer, wanted=lambda topic: True):
     BagError
         The bag cannot be read, or the type of a message is not installed.
     """
+    known = set()
     schemas, topics = {}, {}  # by their numbers
     try:
         for record in records(path):
-            if isinstance(record, Schema):
+            if isinstance(record, Header):  # each file of a bag has numbers of its own
+                schemas, topics = {}, {}
+            elif isinstance(record, Schema):
                 schemas[record.id] = record.name
-            elif isinstance(record, Channel) and record.id not in topics:
+            elif isinstance(record, Channel):
                 topics[record.id] = record.topic
-                _announce(record, schemas[record.schema_id], writer)
+                if record.topic not in known:
+                    known.add(record.topic)
+                    _announce(record, schemas[record.schema_id], writer)
             elif isinstance(record, Message) and wanted(topics[record.channel_id]):
                 writer.write(topics[record.channel_id], record.log_time, record.data)
     except EndOfFile:
         pass
-    return set(topics.values())
+    return known
 
 
 def _announce(channel, type_name, writer):

@@ -32,11 +32,12 @@ def recorded_loop(path):
     BagError
         The bag cannot be read, lacks an Imu, or holds more than one run.
     """
-    topics, stamps, answers, provenance = {}, array("q"), [], {}
+    topics, known, stamps, answers, provenance = {}, set(), array("q"), [], {}
     try:
         for record in records(path):
             if isinstance(record, Channel):
-                topics[record.id] = record.topic
+                topics[record.id] = record.topic  # of the file at hand; each has numbers of its own
+                known.add(record.topic)
             elif isinstance(record, Metadata):
                 provenance[record.name] = dict(record.metadata)
             elif isinstance(record, Message) and topics[record.channel_id].endswith("/chassis/imu"):
@@ -49,13 +50,13 @@ def recorded_loop(path):
         raise BagError(f"bag {str(path)!r} holds no samples on chassis/imu")
     if min(np.diff(stamps)) <= 0:
         raise BagError(f"bag {str(path)!r} holds more than one run: the samples begin anew")
-    chassis, powertrain = (_topic(path, topics.values(), end) for end in ("chassis/imu", "powertrain/imu"))
+    chassis, powertrain = (_topic(path, known, end) for end in ("chassis/imu", "powertrain/imu"))
     rate = round(NANO / float(np.median(np.diff(stamps))))
     return RecordedLoop(chassis, powertrain, len(stamps), rate, answers, provenance)
 
 
 def _topic(path, topics, end):
-    found = {topic for topic in topics if topic.endswith(f"/{end}")}
+    found = [topic for topic in topics if topic.endswith(f"/{end}")]
     if len(found) != 1:
         raise BagError(f"bag {str(path)!r} holds {len(found)} topics that end in {end}, must be one")
     return found.pop()

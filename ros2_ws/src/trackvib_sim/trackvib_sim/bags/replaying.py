@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 from mcap.exceptions import EndOfFile, McapError
-from mcap.records import Channel, Message, Metadata, Schema
+from mcap.records import Channel, Header, Message, Metadata, Schema
 from mcap.stream_reader import StreamReader
 from rosbags.typesys import Stores, TypesysError, get_types_from_msg, get_typestore
 from zstandard import ZstdError
@@ -113,7 +113,9 @@ class _Gathered:
 
     def take(self, record):
         """Keep what is needed of an MCAP record."""
-        if isinstance(record, Schema):
+        if isinstance(record, Header):  # each file of a bag has numbers of its own
+            self._schemas, self._topics = {}, {}
+        elif isinstance(record, Schema):
             self._schemas[record.id] = record
         elif isinstance(record, Channel):
             self._announce(record)

@@ -22,7 +22,7 @@ _TICK = 0.1  # s
 
 
 def read_answers(messages):
-    """Return the currents (2,) [A] in serialised `CoilCurrent` messages by stamp of the sample [ns], each one's first."""
+    """Return the currents (2,) [A] in serialised `CoilCurrent` messages by sample stamp [ns], the first of each."""
     reader, currents = _answer_reader(), {}
     for data in messages:
         seconds, nanoseconds, *current = reader.read(data)
