@@ -137,7 +137,7 @@ def told(name, key, value):
         (told("parameters of /simulator", "pace", "realtime"), "pace is 'realtime'"),
         (told("parameters of /simulator", "physics_rate", "10"), "recorded physics_rate is '10'"),
         ({"provenance": lambda name, values: None}, "does not tell the parameters of its simulator"),
-        ({"message": lambda at, data: data[:30] if at == "/vehicle_description" else data}, ""),
+        ({"message": lambda at, data: data[:30] if at == "/vehicle_description" else data}, "cannot be read"),
     ],
 )
 def test_what_cannot_be_verified(edited, edit, words):

@@ -11,6 +11,7 @@ import numpy as np
 from mcap.exceptions import EndOfFile, McapError
 from mcap.records import Channel, Header, Message, Metadata, Schema
 from mcap.stream_reader import StreamReader
+from rosbags.serde import SerdeError
 from rosbags.typesys import Stores, TypesysError, get_types_from_msg, get_typestore
 from zstandard import ZstdError
 
@@ -93,7 +94,7 @@ def read_recording(path):
             gathered.take(record)
     except EndOfFile:
         complete = False
-    except TypesysError as error:
+    except (TypesysError, SerdeError) as error:
         raise BagError(f"bag {str(path)!r} cannot be read: {error}") from None
     try:
         return gathered.recording(complete)
