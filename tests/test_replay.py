@@ -84,8 +84,8 @@ def test_a_rerun_ends_with_its_road(recorded_run, tmp_path, monkeypatch):
     from trackvib_sim import replay_law
 
     whole = replay_law.read_recording
-    ends_early = lambda bag: whole(bag)._replace(road=[p for p in whole(bag).road if p[0] < 30.0])  # noqa: E731
-    monkeypatch.setattr(replay_law, "read_recording", ends_early)
+    short = [patch for patch in whole(recorded_run / "bag").road if patch[0] < 30.0]
+    monkeypatch.setattr(replay_law, "read_recording", lambda bag: whole(bag)._replace(road=short))
     perform(recorded_run / "bag", "passive", tmp_path / "out", Console(quiet=True))
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())["replay"]
     assert summary["ended"].startswith("the recorded road ends here") and 3.0 <= summary["duration_s"] < 3.2
