@@ -84,7 +84,7 @@ def test_a_rerun_ends_with_its_road(recorded_run, tmp_path, monkeypatch):
     from trackvib_sim import replay_law
 
     whole = replay_law.read_recording
-    short = [patch for patch in whole(recorded_run / "bag").road if patch[0] < 30.0]
+    short = [patch for patch in whole(recorded_run / "bag").road if patch[0] < 34.0]
     monkeypatch.setattr(replay_law, "read_recording", lambda bag: whole(bag)._replace(road=short))
     perform(recorded_run / "bag", "passive", tmp_path / "out", Console(quiet=True))
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())["replay"]
@@ -92,7 +92,8 @@ def test_a_rerun_ends_with_its_road(recorded_run, tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("law", "words"), [("skyhook", "identical to the recorded ones to the last bit"), ("passive", "difference 2 A, RMS")]
+    ("law", "words"),
+    [("skyhook", "identical to the recorded ones to the last bit"), ("passive", "largest difference 2 A, RMS")],
 )
 def test_into_a_stock_controller(start_cli, recorded_run, tmp_path, law, words):
     """The same law gives the same currents; another one is set beside them. All messages lie in one bag."""

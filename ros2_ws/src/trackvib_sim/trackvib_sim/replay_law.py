@@ -10,7 +10,7 @@ from rich.progress import track
 from rich.table import Table
 
 from .analysis.replay_pictures import drives_picture
-from .analysis.summary import AXES, SENSORS, SHORTEST_SETTLING, prepare, settling_time
+from .analysis.summary import AXES, SENSORS, SHORTEST_SETTLING, TooShort, prepare, settling_time
 from .analysis.vibration import band, rms
 from .bags.copying import copy_bag
 from .bags.replaying import read_recording
@@ -51,16 +51,20 @@ def perform(bag, law, out, console):
     folder = make_folder(out)
     rerun = _drive(bag, recording, simulation, chosen, law, folder / "bag", console)
 
-    length = len(rerun.stamp)
+    if not len(rerun.stamp):
+        raise TooShort(f"nothing to compare: {rerun.ended}")
     replayed = recording._replace(
         chassis=recording.chassis._replace(stamp=rerun.stamp, values=rerun.values[CHASSIS]),
         powertrain=recording.powertrain._replace(stamp=rerun.stamp, values=rerun.values[POWERTRAIN]),
     )
     labels = (f"recorded ({_recorded_law(recording.provenance)})", f"replayed ({law})")
-    stretch = _until(recording, rerun.stamp[-1]) if length else recording
-    drives = {label: prepare(drive, settle) for label, drive in zip(labels, (stretch, replayed), strict=True)}
+    stretch = _until(recording, rerun.stamp[-1])
+    try:
+        drives = {label: prepare(drive, settle) for label, drive in zip(labels, (stretch, replayed), strict=True)}
+    except TooShort as error:
+        raise TooShort(f"{rerun.ended}; {error}") from None
     currents = {labels[0]: _recorded_currents(stretch), labels[1]: rerun.current}
-    title = f"{Path(bag).name} again under {law}, {length / simulation.settings.rates.control:g} s"
+    title = f"{Path(bag).name} again under {law}, {rerun.stamp[-1] / NANO:g} s"
     drives_picture(drives, currents, title, folder / "replay.png")
     summary = _summary(drives, settle, bag, law, rerun, simulation)
     (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
