@@ -7,7 +7,7 @@ import pytest
 from mcap.records import Channel, Message, Metadata, Schema
 from mcap.writer import Writer
 from rich.console import Console
-from trackvib_sim.bags.replaying import read_recording, records
+from trackvib_sim.bags.replaying import read_recorded_drive, records
 from trackvib_sim.bags.stamps import leading_stamp
 from trackvib_sim.bags.writing import BagError
 from trackvib_sim.replay_verify import verify
@@ -107,7 +107,7 @@ def test_a_bag_that_is_cut_short(recorded_run, tmp_path):
     bag.mkdir()
     whole = (recorded_run / "bag" / "bag_0.mcap").read_bytes()
     (bag / "bag_0.mcap").write_bytes(whole[: len(whole) * 3 // 4])
-    assert 1000 < len(read_recording(bag).chassis.stamp) < 3200
+    assert 1000 < len(read_recorded_drive(bag).chassis.stamp) < 3200
     identical, verdict = check(bag)
     assert identical and "cut short" in verdict
 
@@ -190,7 +190,7 @@ def test_a_killed_controller(start_node, observer, tmp_path, policy):
     assert simulator.wait() == 0, simulator.output
     recorder.signal(signal.SIGINT)
     assert recorder.wait() == 0
-    silent = int(read_recording(tmp_path / "bag").told[-1, 1])
+    silent = int(read_recorded_drive(tmp_path / "bag").told[-1, 1])
     assert 100 < silent < 3000
     assert check(tmp_path / "bag")[0]
 

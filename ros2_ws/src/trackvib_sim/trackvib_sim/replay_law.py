@@ -2,18 +2,24 @@
 
 import json
 from pathlib import Path
-from typing import NamedTuple
 
-import numpy as np
 from mr_mount_controller.laws import find_law
 from rich.progress import track
 from rich.table import Table
 
 from .analysis.replay_pictures import drives_picture
-from .analysis.summary import AXES, SENSORS, SHORTEST_SETTLING, TooShort, prepare, settling_time
-from .analysis.vibration import band, rms
+from .analysis.summary import (
+    AXES,
+    SENSORS,
+    SHORTEST_MEASURING,
+    SHORTEST_SETTLING,
+    Prepared,
+    TooShort,
+    settling_time,
+)
+from .analysis.vibration import band, band_limited, rms
 from .bags.copying import copy_bag
-from .bags.replaying import read_recording
+from .bags.replaying import read_recorded_drive
 from .bags.versions import versions
 from .bags.writing import BagWriter
 from .closed_loop_run import make_folder
@@ -22,17 +28,8 @@ from .nodes.rerun_bag import RerunBag
 from .nodes.simulator_parameters import prepare_again
 from .simulation.closed_loop import periods_under_law
 from .simulation.settings import NANO
-from .simulation.simulation import CHASSIS, POWERTRAIN, RunFailed
+from .simulation.simulation import RunFailed
 from .vehicle.mount_audit import mount_account
-
-
-class Rerun(NamedTuple):
-    """What came out, one row a control period."""
-
-    stamp: np.ndarray  # (k,) ns
-    values: np.ndarray  # (2, k, 6) of both Imu: specific force [m/s^2] and rate [rad/s]
-    current: np.ndarray  # (k, 2) demanded, A
-    ended: str  # why
 
 
 def perform(bag, law, out, console):
@@ -43,49 +40,45 @@ def perform(bag, law, out, console):
     BagError, ValueError, RunError
         The bag does not tell enough or is too short, or the folder cannot be made.
     """
-    recording = read_recording(bag)
+    recording = read_recorded_drive(bag)
     simulation, values = prepare_again(recording)
-    settle = _settling(values, recording.provenance)
-    prepare(recording, settle)  # a drive too short to be measured is refused before anything is made
-    chosen = find_law(law)(simulation.settings.rates.period / NANO)
+    settle, rate = _settling(values, recording.provenance), simulation.settings.rates.control
+    _prepared(recording.chassis, recording.powertrain, rate, settle)  # too short a drive is refused before anything
+    chosen = find_law(law)(1.0 / rate)
     folder = make_folder(out)
-    rerun = _drive(bag, recording, simulation, chosen, law, folder / "bag", console)
+    ended = _drive(bag, recording, simulation, chosen, law, folder / "bag", console)
+    rerun = read_recorded_drive(folder / "bag")
 
-    if not len(rerun.stamp):
-        raise TooShort(f"nothing to compare: {rerun.ended}")
-    replayed = recording._replace(
-        chassis=recording.chassis._replace(stamp=rerun.stamp, values=rerun.values[CHASSIS]),
-        powertrain=recording.powertrain._replace(stamp=rerun.stamp, values=rerun.values[POWERTRAIN]),
-    )
     labels = (f"recorded ({_recorded_law(recording.provenance)})", f"replayed ({law})")
-    stretch = _until(recording, rerun.stamp[-1])
+    last = rerun.chassis.stamp[-1]
     try:
-        drives = {label: prepare(drive, settle) for label, drive in zip(labels, (stretch, replayed), strict=True)}
+        drives = {
+            label: _prepared(_until(drive.chassis, last), _until(drive.powertrain, last), rate, settle)
+            for label, drive in zip(labels, (recording, rerun), strict=True)
+        }
     except TooShort as error:
-        raise TooShort(f"{rerun.ended}; {error}") from None
-    currents = {labels[0]: _recorded_currents(stretch), labels[1]: rerun.current}
-    title = f"{Path(bag).name} again under {law}, {rerun.stamp[-1] / NANO:g} s"
-    drives_picture(drives, currents, title, folder / "replay.png")
-    summary = _summary(drives, settle, bag, law, rerun, simulation)
+        raise TooShort(f"{ended}; {error}") from None
+    currents = {label: _currents(drive, last) for label, drive in zip(labels, (recording, rerun), strict=True)}
+    drives_picture(drives, currents, f"{Path(bag).name} again under {law}, {last / NANO:g} s", folder / "replay.png")
+    how = {"bag": str(bag), "law": law, "duration_s": last / NANO, "ended": ended}
+    summary = {"replay": how, **_levels(drives, settle), "mounts_J": mount_account(simulation.state.audit)._asdict()}
     (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
     console.print(_table(summary, labels))
-    console.print(f"{rerun.ended}; left in {folder}: bag/, summary.json, replay.png", soft_wrap=True)
+    console.print(f"{ended}; left in {folder}: bag/, summary.json, replay.png", soft_wrap=True)
 
 
 def _drive(bag, recording, simulation, chosen, law, path, console):
-    """Run to the recorded end, or as far as road and vehicle go, and write it all down as it comes."""
-    rates = simulation.settings.rates
-    periods = int(recording.chassis.stamp[-1]) // rates.period
+    """Run to the recorded end, or as far as road and vehicle go, into a bag; returns how it ended."""
+    periods = int(recording.chassis.stamp[-1]) // simulation.settings.rates.period
     writer = BagWriter(path)
-    stamps, values, currents = [], ([], []), []
-    ended = "driven to the recorded end"
+    ended, exchange = "driven to the recorded end", None
     try:
         constant = (topics.ROAD_PROFILE, topics.VEHICLE_DESCRIPTION)
         known = copy_bag(bag, writer, lambda topic: topic.endswith(constant))
         _describe(writer, recording.provenance, bag, law, chosen)
         rerun = RerunBag(writer, known, recording.chassis.topic.removesuffix(topics.CHASSIS_IMU), simulation)
         rerun.begin()
-        exchange, loop = None, periods_under_law(simulation, chosen)
+        loop = periods_under_law(simulation, chosen)
         for _ in track(range(periods), f"driving under {law}", console=console, transient=True):
             if not simulation.road_is_enough():
                 ended = f"the recorded road ends here: {simulation.distance:.1f} m, t = {simulation.time / NANO:.3f} s"
@@ -96,16 +89,12 @@ def _drive(bag, recording, simulation, chosen, law, path, console):
                 ended = f"the run failed: {failure}"
                 break
             rerun.write_period(exchange)
-            sample = simulation.sample
-            for sensor in (CHASSIS, POWERTRAIN):
-                values[sensor].append(np.concatenate((sample.specific_force[sensor], sample.rate[sensor])))
-            stamps.append(simulation.time)
-            currents.append(exchange.currents.copy())
-        if exchange is not None:
-            rerun.write_diagnostics("finished", exchange)
+        if exchange is None:
+            raise TooShort(f"nothing to compare: {ended}")
+        rerun.write_diagnostics("finished", exchange)
     finally:
         writer.close()
-    return Rerun(np.array(stamps), np.array(values), np.array(currents), ended)
+    return ended
 
 
 def _describe(writer, provenance, bag, law, chosen):
@@ -132,35 +121,34 @@ def _recorded_law(provenance):
     return laws[0] if laws else "law not told"
 
 
-def _until(recording, stamp):
-    """The part of a recording up to a stamp [ns]."""
-    parts = {}
-    for name in ("chassis", "powertrain"):
-        stream = getattr(recording, name)
-        kept = stream.stamp <= stamp
-        parts[name] = stream._replace(stamp=stream.stamp[kept], values=stream.values[kept])
-    return recording._replace(**parts)
+def _prepared(chassis, powertrain, rate, settle):
+    """Return two `bags.replaying.Stream`s ready to be measured; raises `TooShort`."""
+    time = chassis.stamp / NANO
+    if time[-1] < settle + SHORTEST_MEASURING:
+        raise TooShort(f"the drive is {time[-1]:g} s long, RMS values need {settle + SHORTEST_MEASURING:g} s")
+    raw = dict(zip(SENSORS, (chassis.specific_force, powertrain.specific_force), strict=True))
+    limited = {sensor: band_limited(values, rate) for sensor, values in raw.items()}
+    return Prepared(time, raw, limited, rate, time > settle)
 
 
-def _recorded_currents(recording):
-    """The last answer to each sample (k, 2), NaN where there is none."""
-    stamps = recording.chassis.stamp
-    currents = np.full((len(stamps), 2), np.nan)
-    place = np.searchsorted(stamps, recording.answered)
-    there = place < len(stamps)
-    there[there] = stamps[place[there]] == recording.answered[there]
-    currents[place[there]] = recording.current[there]
-    return currents
+def _until(stream, stamp):
+    """The part of a stream up to a stamp [ns]."""
+    kept = stream.stamp <= stamp
+    return stream._replace(stamp=stream.stamp[kept], values=stream.values[kept])
 
 
-def _summary(drives, settle, bag, law, rerun, simulation):
-    levels = [
+def _currents(drive, last):
+    """Times [s] and demanded currents (k, 2) [A] of all answers up to a stamp [ns]."""
+    kept = drive.answered <= last
+    return drive.answered[kept] / NANO, drive.current[kept]
+
+
+def _levels(drives, settle):
+    recorded, replayed = (
         {sensor: dict(zip(AXES, rms(drive.limited[sensor][drive.settled]).tolist(), strict=True)) for sensor in SENSORS}
         for drive in drives.values()
-    ]
-    recorded, replayed = levels
+    )
     return {
-        "replay": {"bag": str(bag), "law": law, "duration_s": rerun.stamp[-1] / NANO, "ended": rerun.ended},
         "band_hz": list(band(next(iter(drives.values())).rate)),
         "settled_after_s": settle,
         "rms_mps2": {"recorded": recorded, "replayed": replayed},
@@ -168,7 +156,6 @@ def _summary(drives, settle, bag, law, rerun, simulation):
             sensor: {axis: 100.0 * (replayed[sensor][axis] / recorded[sensor][axis] - 1.0) for axis in AXES}
             for sensor in SENSORS
         },
-        "mounts_J": mount_account(simulation.state.audit)._asdict(),
     }
 
 

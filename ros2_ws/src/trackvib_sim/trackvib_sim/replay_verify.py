@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from rich.progress import track
 
-from .bags.replaying import read_recording
+from .bags.replaying import read_recorded_drive
 from .bags.versions import versions
 from .nodes.simulator_parameters import prepare_again
 from .simulation.recorded_currents import NotTold, currents_in_force
@@ -47,7 +47,7 @@ def verify(bag, console):
     ValueError
         It does not tell enough; the message says what is missing.
     """
-    recording = read_recording(bag)
+    recording = read_recorded_drive(bag)
     simulation, values = prepare_again(recording)
     if values["pace"] != "lockstep":
         raise NotVerifiable("its run followed the wall clock (pace is 'realtime'), so it depends on the machine")

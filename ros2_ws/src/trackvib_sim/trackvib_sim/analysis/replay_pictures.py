@@ -18,7 +18,7 @@ SIDES = ("left", "right")
 def drives_picture(drives, currents, title, path):
     """Draw vertical histories and spectra of both sensors and the currents of two drives to a PNG file.
 
-    `drives` maps two labels to `summary.Prepared`, `currents` the same to (k, 2) [A], one row a sample.
+    `drives` maps two labels to `summary.Prepared`, `currents` the same to times [s] and currents (k, 2) [A].
     """
     figure = plt.figure(figsize=(13, 9), layout="constrained")
     figure.suptitle(title, fontsize=11)
@@ -36,8 +36,8 @@ def drives_picture(drives, currents, title, path):
         plot_of_psd.set_title(f"{sensor}: vertical power spectral density", fontsize=10)
         plot_of_psd.set_ylabel("(m/s²)²/Hz")
         plot_of_psd.set_xlabel("frequency, Hz")
-    for colour, (label, drive) in zip(COLOURS, drives.items(), strict=True):
-        rows[2].plot(drive.time, currents[label].mean(1), color=colour, linewidth=0.7, label=label)
+    for colour, (label, (time, values)) in zip(COLOURS, currents.items(), strict=True):
+        rows[2].plot(time, values.mean(1), color=colour, linewidth=0.7, label=label)
     rows[2].set_ylabel("demanded current,\nmean of both mounts, A")
     rows[2].set_xlabel("time, s")
     _finish(figure, path)

@@ -38,7 +38,7 @@ class Stream(NamedTuple):
         return self.values[:, :3]
 
 
-class Recording(NamedTuple):
+class RecordedDrive(NamedTuple):
     """A drive as its bag tells it."""
 
     chassis: Stream
@@ -79,8 +79,8 @@ def records(path):
         raise BagError(f"bag {str(path)!r} cannot be read: {error}") from None
 
 
-def read_recording(path):
-    """Return the `Recording` in a bag folder; topics are found by the ends of their names.
+def read_recorded_drive(path):
+    """Return the `RecordedDrive` in a bag folder; topics are found by the ends of their names.
 
     Raises
     ------
@@ -153,7 +153,7 @@ class _Gathered:
                 self._values[end].append(float(told["silent_periods"]))
 
     def recording(self, complete):
-        """Return all as a `Recording`; raises ValueError with what is wrong."""
+        """Return all as a `RecordedDrive`; raises ValueError with what is wrong."""
         several = [topics for topics in self._names.values() if len(topics) > 1]
         if several:
             raise ValueError(f"holds more than one run: {', '.join(sorted(several[0]))}")
@@ -161,7 +161,7 @@ class _Gathered:
         missing += ["road_profile"] * (not self._road) + ["vehicle_description"] * (self._vehicle is None)
         if missing:
             raise ValueError(f"holds no messages on {', '.join(missing)}")
-        return Recording(
+        return RecordedDrive(
             *(self._stream(end) for end in _FIELDS),
             np.array(self._stamps["coil_current"]),
             np.array(self._values["coil_current"]).reshape(-1, 2),

@@ -8,6 +8,7 @@ from itertools import groupby
 
 from mr_mount_controller.node_support import LoopNode, NodeError, run_node
 from mr_mount_controller.parameters import Parameter, ParameterError
+from rclpy.duration import Duration
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
@@ -30,6 +31,7 @@ PARAMETERS = (
 )
 _DEPTH = 1000  # messages that may wait, or are kept for late joiners; the bag does not tell
 _CLOCK_STEP = NANO // 100  # ns
+_FLUSH = Duration(seconds=2)  # for the last messages to arrive
 _REPEAT = 0.5  # s of wall time after which a player that stands still tells the time again
 
 
@@ -50,16 +52,16 @@ class PlayerNode(LoopNode):
         self._time, self._end = self._stretch()
         self._begin = self._time
         self._connections = self._chosen()
-        self._publishers = {}  # by topic in the bag
+        self._outputs = {}  # by topic in the bag
         for connection in self._connections:
-            if connection.topic not in self._publishers:
-                self._publishers[connection.topic] = self._publisher(connection)
-        self._clock = self.create_publisher(Clock, CLOCK, CLOCK_QOS)
+            if connection.topic not in self._outputs:
+                self._outputs[connection.topic] = self._publisher(connection)
+        self._clock_out = self.create_publisher(Clock, CLOCK, CLOCK_QOS)
         self._origin = 0.0  # wall time at which the time of the bag would be zero, s
 
     def run(self):
         """Wait until somebody listens, then play until the end or a stop."""
-        self.get_logger().info(f"waiting for somebody who listens to {', '.join(sorted(self._publishers))}")
+        self.get_logger().info(f"waiting for somebody who listens to {', '.join(sorted(self._outputs))}")
         gathering = Gathering(self._listeners)
         self.spin_until(gathering.complete)
         while not self.stopping():
@@ -70,8 +72,8 @@ class PlayerNode(LoopNode):
             self._control.begin_epoch()
         if not self.stopping():
             self.get_logger().info(f"played up to {self._time / NANO:.3f} s")
-            for publisher in self._publishers.values():
-                publisher.wait_for_all_acked()
+            for publisher in self._outputs.values():
+                publisher.wait_for_all_acked(_FLUSH)
 
     def close(self):
         """Close the bag."""
@@ -112,7 +114,7 @@ class PlayerNode(LoopNode):
         return self.create_publisher(kind, connection.topic.removeprefix("/"), qos)
 
     def _listeners(self):
-        return [sum(publisher.get_subscription_count() for publisher in self._publishers.values())]
+        return [sum(publisher.get_subscription_count() for publisher in self._outputs.values())]
 
     def _play(self):
         """Play from begin to end once, or until a stop or a reset is wanted."""
@@ -129,7 +131,7 @@ class PlayerNode(LoopNode):
             if not self._wait_until(stamp):
                 return
             for connection, _, data in instant:
-                self._publishers[connection.topic].publish(bytes(data))
+                self._outputs[connection.topic].publish(bytes(data))
             self._control.end_period()
         if self._wait_until(self._end):
             self._publish_clock()
@@ -144,7 +146,7 @@ class PlayerNode(LoopNode):
             kept[connection.topic].append(bytes(data))
         for topic, messages in kept.items():
             for data in messages:
-                self._publishers[topic].publish(data)
+                self._outputs[topic].publish(data)
 
     def _wait_until(self, stamp):
         """Wait for a time of the bag [ns], however long the player is paused; returns whether to go on."""
@@ -172,7 +174,7 @@ class PlayerNode(LoopNode):
         seconds, nanoseconds = divmod(self._time, NANO)
         message = Clock()
         message.clock.sec, message.clock.nanosec = seconds, nanoseconds
-        self._clock.publish(message)
+        self._clock_out.publish(message)
 
 
 def main(args=None):

@@ -81,7 +81,7 @@ def simulation_of(vehicle, values):
 
 
 def prepare_again(recording):
-    """Return the `Simulation` of a `bags.replaying.Recording` with all its road, and the recorded parameter values.
+    """Return the `Simulation` of a `bags.replaying.RecordedDrive` with all its road, and the recorded parameter values.
 
     Raises
     ------

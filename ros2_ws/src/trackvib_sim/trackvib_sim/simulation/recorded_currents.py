@@ -14,7 +14,7 @@ class NotTold(ValueError):
 
 
 def currents_in_force(simulation, recording, on_silence):
-    """Yield the demanded currents (2,) [A] in force in each period of a `bags.replaying.Recording`.
+    """Yield the demanded currents (2,) [A] in force in each period of a `bags.replaying.RecordedDrive`.
 
     A period runs on the answer to the sample before it, the first one on the passive current. Where the simulator
     counted silence the answer may have come too late, or never, and `on_silence` decided; and of two answers the first
@@ -24,7 +24,7 @@ def currents_in_force(simulation, recording, on_silence):
     ----------
     simulation : Simulation
         Not yet advanced.
-    recording : bags.replaying.Recording
+    recording : bags.replaying.RecordedDrive
     on_silence : str
         "hold", "passive" or "stop".
 
