@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 from mr_mount_controller.laws import known_laws
+from mr_mount_controller.laws.base import LawError
 
 from .option_types import known_law
 
@@ -55,7 +56,7 @@ def replay(bag, verify, law, controller, out):
             from .replay_controller import perform
 
             perform(bag, None if controller == EXTERNAL else controller, out, console)
-    except (BagError, RunError, ValueError, OSError) as error:
+    except (BagError, LawError, RunError, ValueError, OSError) as error:
         click.echo(f"{'cannot be verified' if verify else 'error'}: {error}", err=True)
         sys.exit(CANNOT_VERIFY if verify else 1)
     except KeyboardInterrupt:
