@@ -118,7 +118,7 @@ def test_into_a_stock_controller(start_cli, recorded_run, tmp_path, law, words):
 
 
 def test_into_a_controller_of_ones_own(start_cli, start_node, recorded_run, tmp_path):
-    """Whoever answers is asked, whenever he comes; if he dies, the rest is unanswered."""
+    """Whoever answers is asked, whenever he comes."""
     replay = start_cli("replay", recorded_run / "bag", "--controller", "external", "--out", tmp_path / "out")
     replay.wait_for("waiting for a controller")
     start_node("controller", law="skyhook")
