@@ -200,7 +200,7 @@ def test_each_epoch_is_verified(start_node, observer, tmp_path):
     recorder = start_node("recorder", bag=tmp_path / "bag")
     start_node("road_excitation")
     start_node("controller", law="skyhook")
-    simulator = start_node("simulator", duration=1.0, wait_for_recorder=True)
+    simulator = start_node("simulator", duration=2.5, wait_for_recorder=True)
     observer.wait_until(lambda: float(observer.values.get("time", 0.0)) > 0.3)
     observer.call("reset")
     assert simulator.wait() == 0, simulator.output
