@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from mcap.exceptions import EndOfFile, McapError
 from mcap.records import Channel, Header, Message, Metadata, Schema
-from mcap.stream_reader import StreamReader
+from mcap.stream_reader import CRCValidationError, StreamReader
 from rosbags.serde import SerdeError
 from rosbags.typesys import Stores, TypesysError, get_types_from_msg, get_typestore
 from zstandard import ZstdError
@@ -61,7 +61,7 @@ def records(path):
     BagError
         There is no such bag, or it cannot be read at all.
     EndOfFile
-        After the last record, if the bag is cut short.
+        After the last whole chunk, if the bag is cut short or damaged there.
     """
     path = Path(path)
     files = sorted(path.glob("*.mcap"), key=lambda file: (len(file.name), file.name))
@@ -70,8 +70,8 @@ def records(path):
     try:
         for file in files:
             with file.open("rb") as stream:
-                yield from StreamReader(stream).records
-    except (struct.error, ZstdError) as error:  # of a record, or a chunk, that stops in the middle
+                yield from StreamReader(stream, validate_crcs=True).records
+    except (struct.error, ZstdError, CRCValidationError) as error:  # a record or a chunk stops in the middle
         raise EndOfFile(str(error)) from None
     except EndOfFile:
         raise
