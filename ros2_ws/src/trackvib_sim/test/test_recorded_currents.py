@@ -14,7 +14,7 @@ pytestmark = pytest.mark.property
 
 PERIOD = 1_000_000  # ns
 PERIODS = 60
-NO_WORD = np.zeros((0, 2), dtype=np.int64)
+NO_WORD = np.zeros((0, 3), dtype=np.int64)
 
 
 def recorded(simulation, currents, answers, told=NO_WORD):
@@ -74,7 +74,7 @@ def test_late_answers_do_not_act(simulation, drawn, on_silence, instead):
     one, answers = simulation(5.0), [(number, drawn[number]) for number in range(1, PERIODS)]
     acted = drawn.copy()
     acted[20:40] = drawn[19] if instead is None else instead
-    told = np.array([[10 * PERIOD, 0], [20 * PERIOD, 1], [50 * PERIOD, 20]])
+    told = np.array([[10 * PERIOD, 0, 9], [20 * PERIOD, 1, 19], [50 * PERIOD, 20, 50]])
     found = in_force(one, recorded(one, acted, answers, told), on_silence)
     np.testing.assert_array_equal(found, acted)
 
@@ -86,10 +86,13 @@ def test_answers_that_are_no_currents_never_act(simulation, drawn):
     np.testing.assert_array_equal(in_force(one, recorded(one, drawn, answers)), drawn)
 
 
-def test_a_missing_answer_is_named(simulation, drawn):
-    """Where nothing was told of silence, the current is unknown from there on."""
+@pytest.mark.parametrize(
+    "told", [NO_WORD, np.array([[20 * PERIOD, 0, 19], [40 * PERIOD, 0, 39]]), np.array([[40 * PERIOD, 1, 40]])]
+)
+def test_a_missing_answer_is_named(simulation, drawn, told):
+    """Where no silence was told, or more answers than are recorded, the current is unknown from there on."""
     one, answers = simulation(5.0), [(number, drawn[number]) for number in range(1, PERIODS) if number != 30]
-    currents = currents_in_force(one, recorded(one, drawn, answers), "hold")
+    currents = currents_in_force(one, recorded(one, drawn, answers, told), "hold")
     for k in range(30):
         np.testing.assert_array_equal(next(currents), drawn[k])
     with pytest.raises(NotTold, match=r"sample at t = 0.030 s"):

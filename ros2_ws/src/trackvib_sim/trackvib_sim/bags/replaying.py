@@ -21,6 +21,7 @@ from .writing import BagError
 IMU = ("linear_acceleration", "angular_velocity")
 MOUNTS = ("current", "stiffness", "damping", "deflection", "velocity", "force", "dissipated_power")  # left, right
 _FIELDS = {"chassis/imu": IMU, "powertrain/imu": IMU, "mount_state": MOUNTS}
+_ANSWERS = ("accepted", "late", "duplicate", "not_finite")  # to samples that were out; counts of the diagnostics
 _FURTHER = ("coil_current", "road_profile", "vehicle_description", "diagnostics")
 
 
@@ -48,7 +49,7 @@ class RecordedDrive(NamedTuple):
     current: np.ndarray  # (a, 2) these answers, A
     road: list  # of patches (start, spacing, left, right), m
     vehicle: str  # text of the vehicle file
-    told: np.ndarray  # (d, 2) simulated time [ns] and silent periods up to then, as the simulator told them
+    told: np.ndarray  # (d, 3) simulated time [ns], silent periods and answers up to then, as the simulator told them
     provenance: dict  # metadata records of the bag
     complete: bool  # False where the bag is cut short
 
@@ -150,7 +151,8 @@ class _Gathered:
             told = {pair.key: pair.value for each in message.status if each.name == "simulator" for pair in each.values}
             if "silent_periods" in told:
                 self._stamps[end].append(_time(message.header.stamp))
-                self._values[end].append(float(told["silent_periods"]))
+                answers = sum(int(told[outcome]) for outcome in _ANSWERS)
+                self._values[end].extend((int(told["silent_periods"]), answers))
 
     def recording(self, complete):
         """Return all as a `RecordedDrive`; raises ValueError with what is wrong."""
@@ -174,7 +176,8 @@ class _Gathered:
 
     def _told(self):
         # the first word of the next run may be among the last ones of this
-        told = np.column_stack((self._stamps["diagnostics"], self._values["diagnostics"])).astype(np.int64)
+        counts = np.array(self._values["diagnostics"]).reshape(-1, 2)
+        told = np.column_stack((self._stamps["diagnostics"], counts)).astype(np.int64)
         return told[np.argsort(told[:, 0], kind="stable")]
 
     def _stream(self, end):

@@ -47,20 +47,30 @@ def currents_in_force(simulation, recording, on_silence):
         candidates = answers[stamp].copy()
         if _silence_at(stamp, recording.told):
             candidates.append(passive if on_silence == "passive" else held)
-        if not candidates:
+        if not candidates or not (answers[stamp] or _all_recorded(stamp, recording)):
             raise NotTold(
-                f"no answer to the sample at t = {stamp / NANO:.3f} s is recorded, and no silence of the controller"
+                f"no answer to the sample at t = {stamp / NANO:.3f} s is recorded, but the simulator may have had one"
             )
         held = candidates[0] if len(candidates) == 1 else coils.likeliest(candidates)
 
 
 def _silence_at(stamp, told):
     """Whether the simulator counted silent periods between what it told before and after a stamp [ns]."""
-    times, counts = told.T
+    times, counts = told[:, 0], told[:, 1]
     before, after = np.searchsorted(times, stamp, "left"), np.searchsorted(times, stamp, "right")
     if not len(counts):
         return False
     return counts[min(after, len(counts) - 1)] > (counts[before - 1] if before else 0)
+
+
+def _all_recorded(stamp, recording):
+    """Whether the simulator, when it told next after a stamp [ns], had no more answers than are recorded up to then.
+
+    The last answers of a controller that is killed need not reach everybody.
+    """
+    after = np.searchsorted(recording.told[:, 0], stamp, "right")
+    time, _, had = recording.told[min(after, len(recording.told) - 1)]
+    return had <= np.count_nonzero(recording.answered <= time)
 
 
 class _Coils:
