@@ -180,7 +180,7 @@ def test_a_killed_controller(start_node, observer, tmp_path, policy):
     """The currents in force while nobody answers are those that the policy gave, and again the controller's after."""
     recorder = start_node("recorder", bag=tmp_path / "bag")
     start_node("road_excitation")
-    controller = start_node("controller", law="skyhook")
+    controller = start_node("controller", law="skyhook", wait_for_recorder=True)
     quick = {"on_silence": policy, "answer_timeout": 0.2, "passive_current": 1.5}
     simulator = start_node("simulator", duration=3.0, wait_for_recorder=True, **quick)
     observer.wait_until(lambda: float(observer.values.get("time", 0.0)) > 0.3)
@@ -190,7 +190,7 @@ def test_a_killed_controller(start_node, observer, tmp_path, policy):
     controller.signal(signal.SIGKILL)
     observer.call("resume")
     observer.wait_until(lambda: int(observer.values["silent_periods"]) > 100)
-    start_node("controller", law="skyhook")
+    start_node("controller", law="skyhook", wait_for_recorder=True)
     assert simulator.wait() == 0, simulator.output
     recorder.signal(signal.SIGINT)
     assert recorder.wait() == 0
