@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -21,6 +22,7 @@ PACKAGES = {
     "simulator": "trackvib_sim",
     "road_excitation": "trackvib_sim",
     "recorder": "trackvib_sim",
+    "player": "trackvib_sim",
     "one_process": "trackvib_sim",
     "controller": "mr_mount_controller",
 }
@@ -82,9 +84,9 @@ class Process:
             self._process.wait()
 
 
-@pytest.fixture(scope="module")
-def domain():
-    """A ROS domain that no other test on this machine uses at the time, held by a lock on a file."""
+@contextmanager
+def free_domain():
+    """Give a ROS domain that no other test on this machine uses at the time, held by a lock on a file."""
     for number in DOMAINS:
         with (Path(tempfile.gettempdir()) / f"trackvib_test_domain_{number}").open("w") as file:
             try:
@@ -94,6 +96,25 @@ def domain():
             yield number
             return
     raise RuntimeError("every ROS domain for tests is in use")
+
+
+@pytest.fixture(scope="module")
+def domain():
+    """A ROS domain of a test file's own."""
+    with free_domain() as number:
+        yield number
+
+
+@pytest.fixture(scope="session")
+def recorded_run(tmp_path_factory):
+    """The folder of one `trackvib run` under skyhook, shared by all tests that only read it."""
+    folder = tmp_path_factory.mktemp("recorded") / "run"
+    command = [sys.executable, "-m", "trackvib_sim.cli", "run", "--law", "skyhook", "--duration", "3.2"]
+    with free_domain() as number:
+        env = {**os.environ, "ROS_DOMAIN_ID": str(number)}
+        done = subprocess.run([*command, "--out", str(folder)], env=env, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return folder
 
 
 @pytest.fixture
@@ -166,13 +187,19 @@ class Observer:
         self.wait_until(lambda: values.items() <= self.values.items())
         return float(self.values["time"])
 
-    def call(self, name):
-        """Call a service of the simulator; returns its response."""
-        client = self._node.create_client(Trigger, f"simulator/{name}")
+    def call(self, name, node="simulator"):
+        """Call a service of the simulator, or of another node; returns its response."""
+        client = self._node.create_client(Trigger, f"{node}/{name}")
         self.wait_until(client.service_is_ready)
         future = client.call_async(Trigger.Request())
         self.wait_until(future.done)
         return future.result()
+
+    def collect(self, message_type, topic, qos):
+        """Subscribe to a topic; returns the list to which its serialised messages go."""
+        messages = []
+        self._node.create_subscription(message_type, topic, lambda data: messages.append(bytes(data)), qos, raw=True)
+        return messages
 
     def clean_up(self):
         self._executor.shutdown()

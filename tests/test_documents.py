@@ -6,12 +6,14 @@ from pathlib import Path
 import pytest
 from mr_mount_controller.node import PARAMETERS as CONTROLLER
 from trackvib_sim.nodes import topics
+from trackvib_sim.nodes.player import PARAMETERS as PLAYER
 from trackvib_sim.nodes.recorder import PARAMETERS as RECORDER
 from trackvib_sim.nodes.road_excitation import PARAMETERS as ROAD
 from trackvib_sim.nodes.simulator_parameters import PARAMETERS as SIMULATOR
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text()
+BAGS = (ROOT / "docs" / "bags.md").read_text()
 
 
 @pytest.mark.property
@@ -25,6 +27,16 @@ def test_every_parameter_is_in_the_readme(parameter):
     if parameter.default not in ("", []) and not isinstance(parameter.default, list):
         default = str(parameter.default).lower() if isinstance(parameter.default, bool) else parameter.default
         assert f"`{default}`" in row[1], f"{parameter.name}: default {default} is not in its row"
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("parameter", PLAYER, ids=lambda p: p.name)
+def test_every_parameter_of_the_player_is_in_its_document(parameter):
+    """Likewise."""
+    row = re.search(rf"^\| `{parameter.name}` \|(.*)\|$", BAGS, re.MULTILINE)
+    assert row, f"no row for {parameter.name}"
+    for limit in (parameter.low, parameter.high):
+        assert limit is None or f"{limit:g}" in row[1]
 
 
 @pytest.mark.property

@@ -46,6 +46,7 @@ setup(
         "console_scripts": [
             f"one_process = {name}.nodes.one_process:main",
             f"simulator = {name}.nodes.simulator:main",
+            f"player = {name}.nodes.player:main",
             f"road_excitation = {name}.nodes.road_excitation:main",
             f"recorder = {name}.nodes.recorder:main",
         ],

@@ -4,12 +4,12 @@ import signal
 import sys
 
 import click
-from mr_mount_controller.laws import find_law, known_laws
-from mr_mount_controller.parameters import ParameterError
+from mr_mount_controller.laws import known_laws
 
 from .analyze_cli import analyze
 from .bag_cli import bag
-from .option_types import FiniteRange
+from .option_types import FiniteRange, known_law
+from .replay_cli import replay
 from .road.iso8608 import CLASSES
 from .study_cli import study
 
@@ -28,21 +28,13 @@ def _interrupt():
     raise KeyboardInterrupt
 
 
-def _law(_context, _parameter, value):
-    try:
-        find_law(value)
-    except ParameterError as error:
-        raise click.BadParameter(str(error)) from None
-    return value
-
-
 @main.command()
 @click.option("--road-class", type=click.Choice(list(CLASSES)), default="E", show_default=True,
               help="Class of the road by ISO 8608.")
 @click.option("--speed", type=FiniteRange(0.0, 25.0), default=10.0, show_default=True, help="Speed in m/s.")
 @click.option("--duration", type=FiniteRange(0.1, 3600.0), default=10.0, show_default=True,
               help="Simulated time in s.")
-@click.option("--law", default="passive", show_default=True, callback=_law,
+@click.option("--law", default="passive", show_default=True, callback=known_law,
               help=f"Control law: {', '.join(known_laws())}, or package.module:Class.")
 @click.option("--seed", type=click.IntRange(0, 10**9), default=1, show_default=True, help="Seed of the road.")
 @click.option("--one-process", is_flag=True,
@@ -99,6 +91,7 @@ def vehicle(vehicle, out):
 
 main.add_command(analyze)
 main.add_command(bag)
+main.add_command(replay)
 main.add_command(study)
 
 if __name__ == "__main__":

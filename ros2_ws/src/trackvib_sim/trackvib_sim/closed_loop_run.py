@@ -71,8 +71,10 @@ def perform(choices, out):
             f"{choices.settling:.1f} s to settle and {SHORTEST_MEASURING:g} s to measure"
         )
     console = Console(highlight=False)
-    with _own_domain():
-        folder = _make_folder(choices, out)
+    with own_domain():
+        name = f"{datetime.now():%Y%m%dT%H%M%S}_{choices.road_class}_{choices.speed:g}"
+        folder = make_folder(out or Path("runs") / name)
+        (folder / "log").mkdir()
         console.print(f"closed loop: {choices.title}")
         interrupt = _run_nodes(choices, folder, console)
     try:
@@ -84,7 +86,7 @@ def perform(choices, out):
 
 
 @contextmanager
-def _own_domain():
+def own_domain():
     """Hold the ROS domain against further runs; raise `RunError` if it is impossible or taken."""
     domain = os.environ.get("ROS_DOMAIN_ID") or "0"
     if not (domain.isdecimal() and int(domain) <= HIGHEST_DOMAIN):
@@ -103,12 +105,11 @@ def _own_domain():
         yield
 
 
-def _make_folder(choices, out):
-    name = f"{datetime.now():%Y%m%dT%H%M%S}_{choices.road_class}_{choices.speed:g}"
-    folder = Path(out) if out is not None else Path("runs") / name
+def make_folder(path):
+    """Make a new folder for what a command leaves; raise `RunError` if there is one or it cannot be made."""
+    folder = Path(path)
     try:
         folder.mkdir(parents=True)
-        (folder / "log").mkdir()
     except FileExistsError:
         raise RunError(f"{str(folder)!r} exists already; nothing is overwritten, choose another --out") from None
     except OSError as error:

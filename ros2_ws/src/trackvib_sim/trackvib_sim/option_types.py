@@ -3,6 +3,8 @@
 from math import isfinite
 
 import click
+from mr_mount_controller.laws import find_law
+from mr_mount_controller.parameters import ParameterError
 
 
 class FiniteRange(click.FloatRange):
@@ -25,3 +27,13 @@ class Several(click.ParamType):
     def convert(self, value, param, ctx):
         parts = value.split(",") if isinstance(value, str) else value
         return tuple(sorted({self.item.convert(part, param, ctx) for part in parts}))
+
+
+def known_law(_context, _parameter, value):
+    """Callback of an option that names a control law: refuse one that cannot be loaded."""
+    if value is not None:
+        try:
+            find_law(value)
+        except ParameterError as error:
+            raise click.BadParameter(str(error)) from None
+    return value

@@ -11,19 +11,25 @@ def health(control, simulation, exchange, phases, silent, controllers):
     many nodes answer.
     """
     level = "warning" if silent or exchange.counts["saturated"] or controllers > 1 else "ok"
-    simulated = simulation.time / NANO
-    left, right = exchange.currents.tolist()
     return "error" if control.state == "failed" else level, {
         "state": control.state,
         "epoch": control.epoch,
-        "time": simulated,
         "controllers": controllers,
+        "real_time_factor": round(phases.factor(simulation.time / NANO), 3),
+        **progress(simulation, exchange),
+        **{f"{phase}_us_per_period": cost for phase, cost in phases.costs().items()},
+    }
+
+
+def progress(simulation, exchange):
+    """Return what a run itself tells by name, whoever runs it: time, currents in force, counts, work on the mounts."""
+    left, right = exchange.currents.tolist()
+    return {
+        "time": simulation.time / NANO,
         "current_left": left,
         "current_right": right,
-        "real_time_factor": round(phases.factor(simulated), 3),
         **exchange.counts,
         **{f"mount_{part}_J": energy for part, energy in mount_account(simulation.state.audit)._asdict().items()},
-        **{f"{phase}_us_per_period": cost for phase, cost in phases.costs().items()},
     }
 
 

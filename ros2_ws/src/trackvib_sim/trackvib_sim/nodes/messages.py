@@ -1,5 +1,7 @@
 """From records of the simulation to messages; each translator keeps one message and fills it anew."""
 
+from importlib import import_module
+
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from mr_mount_controller.packed_message import PackedMessage
 from nav_msgs.msg import Odometry
@@ -8,6 +10,12 @@ from trackvib_msgs.msg import MountState
 
 from ..simulation.settings import NANO
 from . import topics
+
+
+def message_type(name):
+    """Return the class of a message type such as `sensor_msgs/msg/Imu`; raises ImportError or AttributeError."""
+    package, kind, message = name.split("/")
+    return getattr(import_module(f"{package}.{kind}"), message)
 
 
 def set_stamp(message, nanoseconds):

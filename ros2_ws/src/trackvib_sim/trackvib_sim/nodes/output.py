@@ -15,6 +15,7 @@ from . import topics
 from .messages import ImuMessage, MountMessage, OdometryMessage, diagnostics
 from .qos import CLOCK_QOS
 
+DIAGNOSTICS_RATE = 10  # Hz of simulated time
 _FLUSH = Duration(seconds=2)  # for the last messages to arrive
 
 

@@ -13,14 +13,13 @@ from ..simulation.settings import NANO
 from ..simulation.simulation import RunFailed
 from . import topics
 from .health import health, summary
-from .output import SimulatorOutput
+from .output import DIAGNOSTICS_RATE, SimulatorOutput
 from .partners import Gathering, RecorderLag, SecondClock
 from .qos import ROAD_QOS
 from .run_control import RunControl
 from .simulator_parameters import PARAMETERS, prepare
 from .timing import PhaseClock
 
-_DIAGNOSTICS_RATE = 10  # Hz of simulated time
 _LISTENING = 0.7  # s in which a simulator that is there already makes itself known
 _REPEAT = 0.5  # s of wall time after which a run that stands still says so again
 _ROAD_PATIENCE = 2.0  # s for the road of a run that begins anew
@@ -118,7 +117,7 @@ class SimulatorNode(LoopNode):
         self._phases.start("publishing")
         self._exchange.publish(self._time())
         self._output.publish_sample()
-        if self._simulation.periods % (self._simulation.settings.rates.control // _DIAGNOSTICS_RATE) == 0:
+        if self._simulation.periods % (self._simulation.settings.rates.control // DIAGNOSTICS_RATE) == 0:
             self._publish_diagnostics()
             self._second_clock.refuse()
         self._phases.start("answer" if self._lockstep else "holding")

@@ -1,5 +1,7 @@
 """Parameters of the simulator node, and the simulation that they describe."""
 
+from contextlib import suppress
+
 from mr_mount_controller.parameters import Parameter, ParameterError
 
 from ..installed import default_vehicle_file
@@ -7,7 +9,7 @@ from ..simulation.settings import Rates, RunSettings
 from ..simulation.simulation import Simulation
 from ..vehicle.coil import usable_current
 from ..vehicle.system import Operation
-from ..vehicle.vehicle_file import VehicleFileError, read_vehicle
+from ..vehicle.vehicle_file import VehicleFileError, parse_vehicle, read_vehicle
 
 PARAMETERS = (
     Parameter("vehicle_file", "", "Vehicle file; empty for the one that comes with the package."),
@@ -57,6 +59,11 @@ def prepare(values):
         vehicle, text = read_vehicle(values["vehicle_file"] or default_vehicle_file())
     except VehicleFileError as error:
         raise ParameterError(f"simulator: parameter 'vehicle_file': {error}") from None
+    return simulation_of(vehicle, values), usable_current(vehicle), text
+
+
+def simulation_of(vehicle, values):
+    """Return the `Simulation` of a vehicle for a dict of parameter values; raises as `prepare` does."""
     low, high = vehicle.engine.speed_range
     engine_speed = values["engine_speed"]
     if engine_speed != 0.0 and not low <= engine_speed <= high:
@@ -68,7 +75,37 @@ def prepare(values):
     )
     try:
         rates = Rates(values["physics_rate"], values["control_rate"], values["odometry_rate"])
-        simulation = Simulation(vehicle, RunSettings(operation, rates, values["passive_current"]))
+        return Simulation(vehicle, RunSettings(operation, rates, values["passive_current"]))
     except ValueError as error:  # also of the vehicle: its tracks do not fit, it cannot roll
         raise ParameterError(f"simulator: {error}") from None
-    return simulation, usable_current(vehicle), text
+
+
+def prepare_again(recording):
+    """Return the `Simulation` of a `bags.replaying.RecordedDrive` with all its road, and the recorded parameter values.
+
+    Raises
+    ------
+    ParameterError
+        The recording does not tell the parameters, or one cannot be used.
+    VehicleFileError
+        The recorded vehicle cannot be used.
+    """
+    told = next((values for values in recording.provenance.values() if "physics_rate" in values), None)
+    if told is None:
+        raise ParameterError("the bag does not tell the parameters of its simulator")
+    values = {parameter.name: _value(parameter, told) for parameter in PARAMETERS}
+    simulation = simulation_of(parse_vehicle(recording.vehicle, "vehicle_description"), values)
+    for patch in recording.road:
+        with suppress(ValueError):  # which the simulator refused as well
+            simulation.road.add(*patch)
+    return simulation, values
+
+
+def _value(parameter, told):
+    """What was recorded as text, in the type of the parameter; one that is younger than the bag has its default."""
+    text = told.get(parameter.name, str(parameter.default))
+    kind = type(parameter.default)
+    try:
+        return parameter.check(text == "True" if kind is bool else kind(text))
+    except ValueError as error:
+        raise ParameterError(f"recorded {parameter.name} is {text!r}: {error}") from None

@@ -34,13 +34,30 @@ def run_closed_loop(simulation, road, law, periods):
         As the simulation and the law do.
     """
     feeder = RoadFeeder(road, HORIZON)
-    settings = simulation.settings
-    exchange = Exchange(settings.passive_current, (-np.inf, np.inf))
-    shapes = ((2, 3), (2, 3), (2,), (2,), (2, 3), (2, 3))
-    record = Record(np.zeros(periods, dtype=np.int64), *(np.zeros((periods, *shape)) for shape in shapes))
-    for k in range(periods):
+
+    def feed():
         for start, spacing, heights in feeder.patches(simulation.distance):
             simulation.road.add(start, spacing, *heights)
+
+    shapes = ((2, 3), (2, 3), (2,), (2,), (2, 3), (2, 3))
+    record = Record(np.zeros(periods, dtype=np.int64), *(np.zeros((periods, *shape)) for shape in shapes))
+    for k, exchange in zip(range(periods), periods_under_law(simulation, law, feed), strict=False):
+        force, rate, mounts = simulation.sample.specific_force, simulation.sample.rate, simulation.sample.mounts
+        record.stamp[k] = simulation.time
+        record.specific_force[k], record.rate[k] = force[: POWERTRAIN + 1], rate[: POWERTRAIN + 1]
+        record.current[k] = exchange.currents
+        record.coil_current[k], record.deflection[k], record.force[k] = mounts.current, mounts.deflection, mounts.force
+    return record
+
+
+def periods_under_law(simulation, law, feed=lambda: None):
+    """Yield the `Exchange` after each control period under a control law, without end.
+
+    `feed()` is called before each period, to see to the road ahead. Raises as `run_closed_loop` does.
+    """
+    exchange = Exchange(simulation.settings.passive_current, (-np.inf, np.inf))
+    while True:
+        feed()
         simulation.advance(exchange.currents)
         force, rate = simulation.sample.specific_force, simulation.sample.rate
         sample = Sample(
@@ -52,9 +69,4 @@ def run_closed_loop(simulation, road, law, periods):
         )
         exchange.publish(simulation.time)
         exchange.offer(simulation.time, answer(law, sample))
-        record.stamp[k] = simulation.time
-        record.specific_force[k], record.rate[k] = force[: POWERTRAIN + 1], rate[: POWERTRAIN + 1]
-        record.current[k] = exchange.currents
-        mounts = simulation.sample.mounts
-        record.coil_current[k], record.deflection[k], record.force[k] = mounts.current, mounts.deflection, mounts.force
-    return record
+        yield exchange

@@ -1,0 +1,109 @@
+"""Gives recorded samples to a live controller in lock-step, in place of the simulator."""
+
+import time
+from typing import NamedTuple
+
+import numpy as np
+import rclpy
+from mr_mount_controller.node_support import LOOP_QOS, LOOP_WRITER_QOS
+from mr_mount_controller.packed_message import MessageReader
+from rclpy.experimental import EventsExecutor
+from rclpy.signals import SignalHandlerOptions
+from sensor_msgs.msg import Imu
+from trackvib_msgs.msg import CoilCurrent
+
+from ..simulation.exchange import Exchange
+from ..simulation.settings import NANO
+from . import topics
+from .partners import Gathering
+
+_ANSWER_TIMEOUT = 1.0  # s of wall time after which the controller is silent
+_TICK = 0.1  # s
+
+
+def read_answers(messages):
+    """Return the currents (2,) [A] in serialised `CoilCurrent` messages by sample stamp [ns], the first of each."""
+    reader, currents = _answer_reader(), {}
+    for data in messages:
+        seconds, nanoseconds, *current = reader.read(data)
+        currents.setdefault(seconds * NANO + nanoseconds, tuple(current))
+    return currents
+
+
+def _answer_reader():
+    return MessageReader(CoilCurrent, {"sample_stamp": "iI", "current": "2d"})
+
+
+class Answer(NamedTuple):
+    """A controller's answer to a sample."""
+
+    current: tuple  # (2,) A
+    data: bytes  # the message
+
+
+class ControllerTrial:
+    """A node that speaks to the controller as the simulator does; use as a context manager."""
+
+    def __enter__(self):
+        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+        self._node = rclpy.create_node("replay")
+        self._imus = [self._node.create_publisher(Imu, topic, LOOP_WRITER_QOS)
+                      for topic in (topics.CHASSIS_IMU, topics.POWERTRAIN_IMU)]  # fmt: skip
+        self._answers = self._node.create_subscription(
+            CoilCurrent, topics.COIL_CURRENT, self._on_answer, LOOP_QOS, raw=True
+        )
+        self._executor = EventsExecutor()
+        self._executor.add_node(self._node)
+        self._reader = _answer_reader()
+        self._exchange = Exchange(0.0, (-np.inf, np.inf))
+        self._latest = None
+        self._heard, self._given_up = -1, None  # latest sample answered, now and when silence fell, ns
+        return self
+
+    def __exit__(self, *_):
+        self._executor.shutdown()
+        self._node.destroy_node()
+        rclpy.try_shutdown()
+
+    def wait_for_controller(self, check):
+        """Wait until a controller listens and answers; `check()` is called meanwhile and may raise."""
+        gathering = Gathering(self._present)
+        while not gathering.complete():
+            check()
+            self._executor.spin_once(timeout_sec=_TICK)
+
+    def type_hash(self):
+        """Return the hash of the answers' type, as bags note it."""
+        return str(self._node.get_publishers_info_by_topic(self._answers.topic_name)[0].topic_type_hash)
+
+    def answer(self, stamp, chassis, powertrain):
+        """Publish both Imu messages (bytes) of a sample; returns the `Answer`, or None if none comes in time.
+
+        Who is silent is no longer waited for until he is heard again.
+        """
+        exchange = self._exchange
+        exchange.publish(stamp)
+        for publisher, data in zip(self._imus, (chassis, powertrain), strict=True):
+            publisher.publish(data)
+        self._executor.spin_once(timeout_sec=0.0)
+        if self._given_up is None or self._heard > self._given_up:
+            self._given_up = None
+            end = time.monotonic() + _ANSWER_TIMEOUT
+            while not exchange.answered and (left := end - time.monotonic()) > 0.0:
+                self._executor.spin_once(timeout_sec=min(left, _TICK))
+            if not exchange.answered:
+                self._given_up = self._heard
+        return self._latest if exchange.answered else None
+
+    def _present(self):
+        listeners = sum(publisher.get_subscription_count() for publisher in self._imus)
+        return self._answers.get_publisher_count(), listeners
+
+    def _on_answer(self, data):
+        seconds, nanoseconds, *current = self._reader.read(data)
+        stamp = seconds * NANO + nanoseconds
+        outcome = self._exchange.offer(stamp, current)
+        if outcome == "accepted":
+            self._latest = Answer(tuple(current), bytes(data))
+        if outcome in ("accepted", "late"):
+            self._heard = max(self._heard, stamp)

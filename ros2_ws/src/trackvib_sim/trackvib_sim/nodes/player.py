@@ -1,0 +1,182 @@
+"""The player node: publishes a bag's messages as they were recorded, at the times of their stamps."""
+
+import sys
+import time
+from collections import deque
+from fnmatch import fnmatchcase
+from itertools import groupby
+
+from mr_mount_controller.node_support import LoopNode, NodeError, run_node
+from mr_mount_controller.parameters import Parameter, ParameterError
+from rclpy.duration import Duration
+from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
+from rosgraph_msgs.msg import Clock
+
+from ..bags.playing import is_best_effort, is_latched, open_bag
+from ..bags.writing import BagError
+from ..simulation.settings import NANO
+from .messages import message_type
+from .partners import Gathering
+from .qos import CLOCK_QOS
+from .run_control import RunControl
+from .topics import CLOCK
+
+PARAMETERS = (
+    Parameter("bag", "", "Folder of the bag."),
+    Parameter("rate", 1.0, "Time of the bag per wall time.", "", 0.01, 100.0),
+    Parameter("start", 0.0, "Where to begin, counted from the bag's first message.", "s", 0.0, 1e6),
+    Parameter("end", 0.0, "Where to end, counted likewise; 0 for the bag's last message.", "s", 0.0, 1e6),
+    Parameter("loop", False, "Begin again at the end."),
+    Parameter("topics", ["*"], "Topics to play, by name or pattern (`*`, `?`)."),
+)
+_DEPTH = 1000  # messages that may wait, or are kept for late joiners; the bag does not tell
+_CLOCK_STEP = NANO // 100  # ns
+_FLUSH = Duration(seconds=2)  # for the last messages to arrive
+_REPEAT = 0.5  # s of wall time after which a player that stands still tells the time again
+
+
+class PlayerNode(LoopNode):
+    """Plays a bag; pause, resume, step and reset are those of the simulator, a step being one instant of the bag.
+
+    Topics are published by their relative names, so that they can be remapped and put into a namespace. `/clock` is
+    the player's own, whether there is one in the bag or not.
+    """
+
+    def __init__(self):
+        super().__init__("player", PARAMETERS)
+        self._control = RunControl(self, lambda: self._time)
+        try:
+            self._reader = open_bag(self.settings["bag"])
+        except BagError as error:
+            raise NodeError(str(error)) from None
+        self._time, self._end = self._stretch()
+        self._begin = self._time
+        self._connections = self._chosen()
+        self._outputs = {}  # by topic in the bag
+        for connection in self._connections:
+            if connection.topic not in self._outputs:
+                self._outputs[connection.topic] = self._publisher(connection)
+        self._clock_out = self.create_publisher(Clock, CLOCK, CLOCK_QOS)
+        self._origin = 0.0  # wall time at which the time of the bag would be zero, s
+
+    def run(self):
+        """Wait until somebody listens, then play until the end or a stop."""
+        self.get_logger().info(f"waiting for somebody who listens to {', '.join(sorted(self._outputs))}")
+        gathering = Gathering(self._listeners)
+        self.spin_until(gathering.complete)
+        while not self.stopping():
+            self._control.state = "running"
+            self._play()
+            if not (self._control.reset_wanted or self.settings["loop"]):
+                break
+            self._control.begin_epoch()
+        if not self.stopping():
+            self.get_logger().info(f"played up to {self._time / NANO:.3f} s")
+            for publisher in self._outputs.values():
+                publisher.wait_for_all_acked(_FLUSH)
+
+    def close(self):
+        """Close the bag."""
+        self._reader.close()
+
+    def _stretch(self):
+        """Return begin and end [ns] in the time of the bag."""
+        first, last = self._reader.start_time, self._reader.end_time - 1
+        length = (last - first) / NANO
+        start, end = self.settings["start"], self.settings["end"] or length
+        if start > length:
+            raise ParameterError(f"player: parameter 'start' is {start} s, accepted is 0 to {length:g} s in this bag")
+        if not start <= end:
+            raise ParameterError(f"player: parameter 'end' is {end} s, accepted is 0 or from start, {start} s, on")
+        return first + round(start * NANO), min(first + round(end * NANO), last)
+
+    def _chosen(self):
+        patterns = [pattern.removeprefix("/") for pattern in self.settings["topics"]]
+        chosen = []
+        for pattern in patterns:
+            matching = [c for c in self._reader.connections if fnmatchcase(c.topic.removeprefix("/"), pattern)]
+            if not matching:
+                there = ", ".join(sorted(c.topic for c in self._reader.connections))
+                raise ParameterError(f"player: parameter 'topics': the bag has no topic {pattern!r}, it has {there}")
+            chosen += matching
+        return [c for c in self._reader.connections if c in chosen and c.topic != CLOCK]
+
+    def _publisher(self, connection):
+        qos = QoSProfile(depth=_DEPTH)
+        if is_latched(connection):
+            qos.durability = QoSDurabilityPolicy.TRANSIENT_LOCAL
+        if is_best_effort(connection):
+            qos.reliability = QoSReliabilityPolicy.BEST_EFFORT
+        try:
+            kind = message_type(connection.msgtype)
+        except (ImportError, AttributeError):
+            raise NodeError(f"the type {connection.msgtype} of {connection.topic} is not installed here") from None
+        return self.create_publisher(kind, connection.topic.removeprefix("/"), qos)
+
+    def _listeners(self):
+        return [sum(publisher.get_subscription_count() for publisher in self._outputs.values())]
+
+    def _play(self):
+        """Play from begin to end once, or until a stop or a reset is wanted."""
+        self._time, tick = self._begin, self._begin
+        self._publish_earlier()
+        self._origin = time.perf_counter() - self._begin / NANO / self.settings["rate"]
+        messages = self._reader.messages(self._connections, start=self._begin, stop=self._end + 1)
+        for stamp, instant in groupby(messages, key=lambda message: message[1]):
+            while tick < stamp:
+                if not self._wait_until(tick):
+                    return
+                self._publish_clock()
+                tick += _CLOCK_STEP - tick % _CLOCK_STEP
+            if not self._wait_until(stamp):
+                return
+            for connection, _, data in instant:
+                self._outputs[connection.topic].publish(bytes(data))
+            self._control.end_period()
+        if self._wait_until(self._end):
+            self._publish_clock()
+
+    def _publish_earlier(self):
+        """Publish what was kept for late joiners before the begin."""
+        latched = [connection for connection in self._connections if is_latched(connection)]
+        if self._begin == self._reader.start_time or not latched:
+            return
+        kept = {connection.topic: deque(maxlen=_DEPTH) for connection in latched}
+        for connection, _, data in self._reader.messages(latched, stop=self._begin):
+            kept[connection.topic].append(bytes(data))
+        for topic, messages in kept.items():
+            for data in messages:
+                self._outputs[topic].publish(data)
+
+    def _wait_until(self, stamp):
+        """Wait for a time of the bag [ns], however long the player is paused; returns whether to go on."""
+        self.spin_once(0.0)
+        while not (self.stopping() or self._control.reset_wanted):
+            if self._control.holding:
+                self._pause()
+                continue
+            left = self._origin + stamp / NANO / self.settings["rate"] - time.perf_counter()
+            if left <= 0.0:
+                self._time = stamp
+                return True
+            self.spin_once(min(left, _REPEAT))
+        return False
+
+    def _pause(self):
+        began = time.perf_counter()
+        go_on = lambda: not self._control.holding or self._control.reset_wanted  # noqa: E731
+        while not (go_on() or self.stopping()):
+            self._publish_clock()
+            self.spin_until(go_on, _REPEAT)
+        self._origin += time.perf_counter() - began
+
+    def _publish_clock(self):
+        seconds, nanoseconds = divmod(self._time, NANO)
+        message = Clock()
+        message.clock.sec, message.clock.nanosec = seconds, nanoseconds
+        self._clock_out.publish(message)
+
+
+def main(args=None):
+    """Run the node."""
+    sys.exit(run_node(PlayerNode, args))

@@ -1,0 +1,65 @@
+"""Writes into a bag what simulator and controller would have published, without their nodes."""
+
+from rclpy.serialization import serialize_message
+from rosgraph_msgs.msg import Clock
+from trackvib_msgs.msg import CoilCurrent
+
+from ..simulation.settings import NANO
+from ..simulation.simulation import CHASSIS, POWERTRAIN
+from . import topics
+from .health import progress
+from .messages import ImuMessage, MountMessage, OdometryMessage, diagnostics, set_stamp
+from .output import DIAGNOSTICS_RATE
+
+
+class RerunBag:
+    """Period by period, on those topics that the bag knows."""
+
+    def __init__(self, writer, known, namespace, simulation):
+        """Take a `BagWriter`, the names of its topics, what stands before the relative ones, and the simulation."""
+        self._writer, self._known, self._namespace, self._simulation = writer, known, namespace, simulation
+        rates = simulation.settings.rates
+        self._periods_an_odometry = rates.control // rates.odometry
+        self._periods_a_diagnosis = rates.control // DIAGNOSTICS_RATE
+        self._chassis, self._powertrain = ImuMessage(topics.CHASSIS_FRAME), ImuMessage(topics.POWERTRAIN_FRAME)
+        self._mounts, self._odometry = MountMessage(), OdometryMessage()
+        self._clock, self._answer = Clock(), CoilCurrent()
+
+    def begin(self):
+        """Write where the vehicle stands before the first period."""
+        self._write_odometry()
+
+    def write_period(self, exchange):
+        """Write the sample of the last period and its answer, which an `Exchange` holds."""
+        simulation = self._simulation
+        stamp, sample = simulation.time, simulation.sample
+        force, rate = sample.specific_force, sample.rate
+        self._write(topics.CHASSIS_IMU, self._chassis.fill(stamp, force[CHASSIS], rate[CHASSIS]))
+        self._write(topics.POWERTRAIN_IMU, self._powertrain.fill(stamp, force[POWERTRAIN], rate[POWERTRAIN]))
+        self._write(topics.MOUNT_STATE, self._mounts.fill(stamp, sample.mounts))
+        if simulation.periods % self._periods_an_odometry == 0:
+            self._write_odometry()
+        if simulation.periods % self._periods_a_diagnosis == 0:
+            self.write_diagnostics("running", exchange)
+        set_stamp(self._answer, stamp)
+        self._answer.sample_stamp = self._answer.header.stamp
+        self._answer.current = exchange.currents
+        self._write(topics.COIL_CURRENT, serialize_message(self._answer))
+
+    def write_diagnostics(self, state, exchange):
+        """Write the state of the run and what it tells."""
+        values = {"state": state, "epoch": 1, **progress(self._simulation, exchange)}
+        level = "error" if state == "failed" else "ok"
+        self._write(topics.DIAGNOSTICS, serialize_message(diagnostics(self._simulation.time, level, state, values)))
+
+    def _write_odometry(self):
+        simulation, clock = self._simulation, self._clock
+        clock.clock.sec, clock.clock.nanosec = divmod(simulation.time, NANO)
+        odometry = self._odometry.fill(simulation.time, simulation.state.tree, simulation.sample)
+        self._write(topics.ODOMETRY, serialize_message(odometry))
+        self._write(topics.CLOCK, serialize_message(clock))
+
+    def _write(self, topic, data):
+        name = topic if topic.startswith("/") else self._namespace + topic
+        if name in self._known:
+            self._writer.write(name, self._simulation.time, data)

@@ -1,0 +1,64 @@
+"""The command line's replays: `trackvib replay BAG`."""
+
+import sys
+from datetime import datetime
+from pathlib import Path
+
+import click
+from mr_mount_controller.laws import known_laws
+from mr_mount_controller.laws.base import LawError
+
+from .option_types import known_law
+
+EXTERNAL = "external"
+CANNOT_VERIFY = 2
+
+
+def _law_or_external(context, parameter, value):
+    return value if value == EXTERNAL else known_law(context, parameter, value)
+
+
+@click.command()
+@click.argument("bag", type=click.Path(file_okay=False))
+@click.option("--verify", is_flag=True,
+              help="Drive the simulator on the recorded road and currents; its sensors must come out bit-identical. "
+                   "Exit code 0: they do, 1: they do not, 2: the bag does not tell enough.")
+@click.option("--law", default=None, callback=known_law, metavar="LAW",
+              help=f"Drive again on the recorded road under another control law: {', '.join(known_laws())}, or "
+                   "package.module:Class.")
+@click.option("--controller", default=None, callback=_law_or_external, metavar="LAW",
+              help=f"Give the recorded accelerations to a controller node with this law, or with '{EXTERNAL}' to the "
+                   "one that you run, and compare its currents with the recorded ones.")
+@click.option("--out", type=click.Path(file_okay=False), default=None,
+              help="Folder to make for --law and --controller.  [default: runs/<time>_replay_<law>]")
+def replay(bag, verify, law, controller, out):
+    """Replay a bag into the simulator (--verify, --law) or into a controller (--controller)."""
+    if sum((verify, law is not None, controller is not None)) != 1:
+        raise click.UsageError("exactly one of --verify, --law and --controller is needed")
+    from rich.console import Console  # imported late: --help need not wait for it
+
+    from .bags.writing import BagError
+    from .closed_loop_run import RunError
+
+    console = Console(highlight=False)
+    name = (law or controller or "").rpartition(":")[2]
+    out = out or Path("runs") / f"{datetime.now():%Y%m%dT%H%M%S}_replay_{name}"
+    try:
+        if verify:
+            from .replay_verify import perform
+
+            sys.exit(perform(bag, console))
+        if law is not None:
+            from .replay_law import perform
+
+            perform(bag, law, out, console)
+        else:
+            from .replay_controller import perform
+
+            perform(bag, None if controller == EXTERNAL else controller, out, console)
+    except (BagError, LawError, RunError, ValueError, OSError) as error:
+        click.echo(f"{'cannot be verified' if verify else 'error'}: {error}", err=True)
+        sys.exit(CANNOT_VERIFY if verify else 1)
+    except KeyboardInterrupt:
+        click.echo("interrupted", err=True)
+        sys.exit(130)

@@ -1,0 +1,123 @@
+"""`trackvib replay --controller`: recorded accelerations into a live controller, its currents beside the recorded."""
+
+import json
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+from mr_mount_controller.node_support import LOOP_WRITER_QOS
+from rich.progress import track
+
+from .analysis.replay_pictures import currents_picture
+from .bags.copying import copy_bag
+from .bags.loop_messages import recorded_loop, sample_messages
+from .bags.qos import qos_record
+from .bags.writing import BagWriter
+from .closed_loop_run import RunError, make_folder, own_domain
+from .installed import closed_loop_parameters
+from .nodes.controller_trial import ControllerTrial, read_answers
+from .nodes.processes import LoopProcesses
+from .simulation.settings import NANO
+
+REPLAYED = "/replayed/current"  # topic of the new answers
+
+
+def perform(bag, law, out, console):
+    """Replay into a stock controller with a law, or with None into the one that the user runs.
+
+    Leaves the recorded messages with the new answers as a bag, a summary, and a picture where there is something to
+    compare, in the new folder `out`.
+
+    Raises
+    ------
+    BagError, RunError
+        The bag lacks a topic, the folder cannot be made, the domain is taken, or the controller ended.
+    """
+    loop = recorded_loop(bag)
+    with own_domain():
+        folder = make_folder(out)
+        writer = BagWriter(folder / "bag")
+        try:
+            copy_bag(bag, writer)
+            for name, told in loop.provenance.items():
+                writer.add_provenance(name, told)
+            writer.add_provenance("replay", {"bag": bag, "controller": law or "external"})
+            replayed = _replay(bag, loop, law, writer, folder, console)
+        finally:
+            writer.close()
+    summary = {"bag": str(bag), "controller": law or "external", "samples": loop.samples, "answered": len(replayed)}
+    title = f"{Path(bag).name} into {law or 'a controller'}"
+    summary |= _compare(read_answers(loop.answers), replayed, folder / "currents.png", title)
+    (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+    console.print(_words(summary), soft_wrap=True)
+    console.print(f"left in {folder}: {', '.join(sorted(path.name for path in folder.iterdir()))}", soft_wrap=True)
+
+
+def _replay(bag, loop, law, writer, folder, console):
+    """Return the controller's currents by stamp [ns], which go to the bag as they come."""
+    replayed = {}
+    with _controller(law, loop.rate, folder) as check, ControllerTrial() as trial:
+        if law is None:
+            console.print("waiting for a controller that listens to chassis/imu or powertrain/imu and answers on "
+                          "coil_current", soft_wrap=True)  # fmt: skip
+        trial.wait_for_controller(check)
+        writer.add_topic(REPLAYED, "trackvib_msgs/msg/CoilCurrent", [qos_record(LOOP_WRITER_QOS)], trial.type_hash())
+        samples = sample_messages(bag, loop.chassis, loop.powertrain)
+        for stamp, *imus in track(samples, "asking the controller", loop.samples, console=console, transient=True):
+            answer = trial.answer(stamp, *imus)
+            if answer is None:
+                check()
+            else:
+                writer.write(REPLAYED, stamp, answer.data)
+                replayed[stamp] = answer.current
+    return replayed
+
+
+@contextmanager
+def _controller(law, rate, folder):
+    """Run a stock controller, unless the user does; gives what raises `RunError` if it has ended."""
+    if law is None:
+        yield lambda: None
+        return
+    (folder / "log").mkdir()
+    given = {"controller": {"law": law, "sample_rate": rate, "wait_for_recorder": False}}
+    processes = LoopProcesses(
+        {"controller": "mr_mount_controller"}, closed_loop_parameters(), given, folder / "log"
+    )
+
+    def check():
+        if processes.ended():
+            raise RunError(f"'controller' ended; it said:\n{processes.last_words('controller')}")
+
+    try:
+        yield check
+    finally:
+        processes.stop()
+
+
+def _compare(recorded, replayed, picture, title):
+    """Return how far the currents are apart [A], where both are, and draw them; empty if they never are."""
+    both = sorted(recorded.keys() & replayed.keys())
+    if not both:
+        return {"compared": 0}
+    old, new = (np.array([currents[stamp] for stamp in both]) for currents in (recorded, replayed))
+    currents_picture(np.array(both) / NANO, old, new, title, picture)
+    difference = new - old
+    return {
+        "compared": len(both),
+        "largest_difference_A": float(np.abs(difference).max()),
+        "rms_difference_A": float(np.sqrt(np.mean(difference**2))),
+        "identical": old.tobytes() == new.tobytes(),
+    }
+
+
+def _words(summary):
+    answered = f"{summary['answered']} of {summary['samples']} samples answered"
+    if not summary["compared"]:
+        return f"currents: {answered}; none recorded to compare them with"
+    if summary["identical"]:
+        return f"currents: {answered}; identical to the recorded ones to the last bit"
+    return (
+        f"currents: {answered}; against the recorded ones largest difference {summary['largest_difference_A']:.6g} A, "
+        f"RMS {summary['rms_difference_A']:.6g} A"
+    )

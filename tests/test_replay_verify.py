@@ -1,0 +1,225 @@
+"""`trackvib replay --verify`: what was recorded must come out again to the last bit, and one wrong bit is found."""
+
+import shutil
+import signal
+
+import pytest
+from mcap.records import Channel, Message, Metadata, Schema
+from mcap.writer import Writer
+from rich.console import Console
+from trackvib_sim.bags.replaying import read_recorded_drive, records
+from trackvib_sim.bags.stamps import leading_stamp
+from trackvib_sim.bags.writing import BagError
+from trackvib_sim.replay_verify import verify
+
+pytestmark = pytest.mark.system
+
+STAMP = 2_000_000_000  # ns, of the message that is spoilt
+
+
+def check(bag):
+    """Verify in this process."""
+    return verify(bag, Console(quiet=True))
+
+
+@pytest.fixture
+def edited(recorded_run, tmp_path):
+    """Copy the recorded bag with other messages or provenance: `edited(message=..., provenance=...)`.
+
+    Both functions get the topic or the record's name and the contents, and return what shall stand there, or None.
+    """
+
+    def make(message=lambda topic, data: data, provenance=lambda name, values: values):
+        folder = tmp_path / "edited"
+        folder.mkdir()
+        schemas, channels = {}, {}
+        with (folder / "edited_0.mcap").open("wb") as file:
+            writer = Writer(file)
+            writer.start(profile="ros2", library="test")
+            for record in records(recorded_run / "bag"):
+                if isinstance(record, Schema) and record.id not in schemas:
+                    schemas[record.id] = writer.register_schema(record.name, record.encoding, record.data)
+                elif isinstance(record, Channel) and record.id not in channels:
+                    number = writer.register_channel(record.topic, "cdr", schemas[record.schema_id], record.metadata)
+                    channels[record.id] = number, record.topic
+                elif isinstance(record, Metadata):
+                    values = provenance(record.name, dict(record.metadata))
+                    if values is not None:
+                        writer.add_metadata(record.name, values)
+                elif isinstance(record, Message):
+                    number, topic = channels[record.channel_id]
+                    data = message(topic, record.data)
+                    if data is not None:
+                        writer.add_message(number, record.log_time, data, record.log_time)
+            writer.finish()
+        return folder
+
+    return make
+
+
+def test_a_recorded_run_comes_out_again(start_cli, recorded_run):
+    """One line and exit code 0."""
+    replay = start_cli("replay", recorded_run / "bag", "--verify")
+    assert replay.wait() == 0, replay.output
+    verdict = replay.output.strip().splitlines()[-1]
+    assert "identical to the last bit: 3200 of /mount_state, 3200 of /chassis/imu, 3200 of /powertrain/imu" in verdict
+
+
+@pytest.mark.parametrize(
+    ("topic", "byte", "mask", "words"),
+    [
+        ("/chassis/imu", -88, 1, "at t = 2.000 s linear_acceleration.y of /chassis/imu"),
+        ("/powertrain/imu", -192, 1, "at t = 2.000 s angular_velocity.x of /powertrain/imu"),
+        ("/mount_state", -24, 1, "at t = 2.000 s force.right.z of /mount_state"),
+        ("/mount_state", -1, 128, "at t = 2.000 s dissipated_power.right of /mount_state"),
+        ("/coil_current", -10, 1, "at t = 2.001 s current.left of /mount_state"),
+    ],
+)
+def test_one_bit_is_found(edited, topic, byte, mask, words):
+    """The first difference is named with its time and channel, be it in a sample or in an answer."""
+
+    def flip(at, data):
+        if at != topic or leading_stamp(data) != STAMP:
+            return data
+        spoilt = bytearray(data)
+        spoilt[byte] ^= mask
+        return bytes(spoilt)
+
+    bag = edited(flip)
+    identical, verdict = check(bag)
+    assert not identical and verdict.startswith(f"different: {words}"), verdict
+
+
+def test_a_difference_is_told_by_exit_code(start_cli, edited):
+    """Of the command: exit code 1 and one line."""
+
+    def spoil(topic, data):
+        return data[:-1] + b"\x01" if topic == "/mount_state" and leading_stamp(data) == STAMP else data
+
+    replay = start_cli("replay", edited(spoil), "--verify")
+    assert replay.wait() == 1, replay.output
+    assert "different: at t = 2.000 s dissipated_power.right of /mount_state is" in replay.output
+
+
+def test_a_bag_that_is_cut_short(recorded_run, tmp_path):
+    """What there is of it is verified, and it is said that there is no more."""
+    bag = tmp_path / "cut"
+    bag.mkdir()
+    whole = (recorded_run / "bag" / "bag_0.mcap").read_bytes()
+    (bag / "bag_0.mcap").write_bytes(whole[: len(whole) * 3 // 4])
+    assert 1000 < len(read_recorded_drive(bag).chassis.stamp) < 3200
+    identical, verdict = check(bag)
+    assert identical and "cut short" in verdict
+
+
+def test_lost_samples_do_not_hide_the_others(edited):
+    """A message that is not in the bag is not compared; those after it are."""
+    bag = edited(lambda topic, data: None if topic == "/chassis/imu" and leading_stamp(data) == STAMP else data)
+    identical, verdict = check(bag)
+    assert identical and "3200 of /mount_state, 3199 of /chassis/imu" in verdict
+
+
+def without(topic):
+    return {"message": lambda at, data: None if at == topic else data}
+
+
+def told(name, key, value):
+    return {"provenance": lambda at, values: values | {key: value} if at == name else values}
+
+
+@pytest.mark.parametrize(
+    ("edit", "words"),
+    [
+        (without("/mount_state"), "holds no messages on mount_state"),
+        (without("/road_profile"), "holds no messages on road_profile"),
+        (without("/coil_current"), "no answer to the sample at t = 0.001 s is recorded"),
+        (without("/diagnostics"), None),
+        (told("parameters of /simulator", "pace", "realtime"), "pace is 'realtime'"),
+        (told("parameters of /simulator", "physics_rate", "10"), "recorded physics_rate is '10'"),
+        ({"provenance": lambda name, values: None}, "does not tell the parameters of its simulator"),
+        ({"message": lambda at, data: data[:30] if at == "/vehicle_description" else data}, "cannot be read"),
+    ],
+)
+def test_what_cannot_be_verified(edited, edit, words):
+    """One reason each; where the simulator's own counts are missing but no answer is, they are not needed."""
+    bag = edited(**edit)
+    if words is None:
+        assert check(bag)[0]
+        return
+    with pytest.raises((BagError, ValueError), match=words):
+        check(bag)
+
+
+def test_a_missing_answer_is_no_silence(edited):
+    """An answer that was lost on its way into the bag ends the verification there, and says how far it went."""
+    bag = edited(lambda topic, data: None if topic == "/coil_current" and leading_stamp(data) == STAMP else data)
+    with pytest.raises(ValueError, match=r"t = 2.000 s is recorded.*up to t = 2.000 s it is identical"):
+        check(bag)
+
+
+def test_other_versions_are_named(edited):
+    """They are a note; the verdict is about the bits."""
+    identical, verdict = check(edited(**told("versions", "numpy", "1.0")))
+    assert identical and "made with numpy 1.0 (here" in verdict
+
+
+@pytest.mark.parametrize("content", [None, b"", b"nonsense", b"\x89MCAP0\r\n"])
+def test_nonsense_is_refused(start_cli, tmp_path, content):
+    """One clear error and exit code 2."""
+    bag = tmp_path / "bag"
+    if content is not None:
+        bag.mkdir()
+        (bag / "bag_0.mcap").write_bytes(content)
+    replay = start_cli("replay", bag, "--verify")
+    assert replay.wait() == 2
+    assert replay.output.startswith(f"cannot be verified: bag '{bag}'") and "Traceback" not in replay.output
+
+
+@pytest.mark.parametrize("policy", ["hold", "passive"])
+def test_a_killed_controller(start_node, observer, tmp_path, policy):
+    """The currents in force while nobody answers are those that the policy gave, and again the controller's after."""
+    recorder = start_node("recorder", bag=tmp_path / "bag")
+    start_node("road_excitation")
+    controller = start_node("controller", law="skyhook", wait_for_recorder=True)
+    quick = {"on_silence": policy, "answer_timeout": 0.2, "passive_current": 1.5}
+    simulator = start_node("simulator", duration=3.0, wait_for_recorder=True, **quick)
+    observer.wait_until(lambda: float(observer.values.get("time", 0.0)) > 0.3)
+    # standing, for the last answer of a controller killed while it sends need not reach the recorder
+    observer.call("pause")
+    observer.wait_for(state="paused")
+    controller.signal(signal.SIGKILL)
+    observer.call("resume")
+    observer.wait_until(lambda: int(observer.values["silent_periods"]) > 100)
+    start_node("controller", law="skyhook", wait_for_recorder=True)
+    assert simulator.wait() == 0, simulator.output
+    recorder.signal(signal.SIGINT)
+    assert recorder.wait() == 0
+    silent = int(read_recorded_drive(tmp_path / "bag").told[-1, 1])
+    assert 100 < silent < 3000
+    assert check(tmp_path / "bag")[0]
+
+
+def test_each_epoch_is_verified(start_node, observer, tmp_path):
+    """A run that was reset leaves two bags, and both come out again."""
+    recorder = start_node("recorder", bag=tmp_path / "bag")
+    start_node("road_excitation")
+    start_node("controller", law="skyhook")
+    simulator = start_node("simulator", duration=2.5, wait_for_recorder=True)
+    observer.wait_until(lambda: float(observer.values.get("time", 0.0)) > 0.3)
+    observer.call("reset")
+    assert simulator.wait() == 0, simulator.output
+    recorder.signal(signal.SIGINT)
+    assert recorder.wait() == 0
+    for bag in ("bag", "bag_epoch_2"):
+        identical, verdict = check(tmp_path / bag)
+        assert identical, verdict
+
+
+def test_two_runs_in_one_bag_are_refused(recorded_run, tmp_path):
+    """As a recorder that knows nothing of epochs would leave them."""
+    bag = tmp_path / "both"
+    bag.mkdir()
+    for number in range(2):
+        shutil.copy(recorded_run / "bag" / "bag_0.mcap", bag / f"both_{number}.mcap")
+    with pytest.raises(BagError, match="more than one run"):
+        check(bag)
