@@ -11,9 +11,9 @@ from rich.console import Console
 from rosbags.rosbag2 import Reader
 from trackvib_sim.bags.replaying import read_recorded_drive
 from trackvib_sim.bags.writing import BagWriter
+from trackvib_sim.commands.replay_law import perform
+from trackvib_sim.commands.replay_verify import verify
 from trackvib_sim.installed import default_vehicle_file
-from trackvib_sim.replay_law import perform
-from trackvib_sim.replay_verify import verify
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.closed_loop import run_closed_loop
 from trackvib_sim.simulation.settings import Rates, RunSettings

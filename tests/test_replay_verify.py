@@ -10,7 +10,7 @@ from rich.console import Console
 from trackvib_sim.bags.replaying import read_recorded_drive, records
 from trackvib_sim.bags.stamps import leading_stamp
 from trackvib_sim.bags.writing import BagError
-from trackvib_sim.replay_verify import verify
+from trackvib_sim.commands.replay_verify import verify
 
 pytestmark = pytest.mark.system
 

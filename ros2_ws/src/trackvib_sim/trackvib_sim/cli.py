@@ -6,12 +6,12 @@ import sys
 import click
 from mr_mount_controller.laws import known_laws
 
-from .analyze_cli import analyze
-from .bag_cli import bag
-from .option_types import FiniteRange, known_law
-from .replay_cli import replay
+from .commands.analyze_cli import analyze
+from .commands.bag_cli import bag
+from .commands.option_types import FiniteRange, known_law
+from .commands.replay_cli import replay
+from .commands.study_cli import study
 from .road.iso8608 import CLASSES
-from .study_cli import study
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -43,7 +43,7 @@ def _interrupt():
               help="Folder to make for the run.  [default: runs/<time>_<road>_<speed>]")
 def run(road_class, speed, duration, law, seed, one_process, out):
     """Run the closed loop as four ROS 2 nodes; leaves a bag, a summary and a picture."""
-    from .closed_loop_run import Choices, RunError, perform  # imported late: --help need not wait for it
+    from .commands.closed_loop_run import Choices, RunError, perform  # imported late: --help need not wait for it
 
     try:
         perform(Choices(road_class, speed, duration, law, seed, one_process), out)
@@ -64,7 +64,7 @@ def run(road_class, speed, duration, law, seed, one_process, out):
               help="Picture of the lowest oscillations.")
 def modes(current, highest, out):
     """Print the standing vehicle's natural frequencies and damping, and draw its modes."""
-    from .vehicle_modes import perform  # imported late, as above
+    from .commands.vehicle_modes import perform  # imported late, as above
 
     try:
         perform(current, highest, out)
@@ -80,7 +80,7 @@ def modes(current, highest, out):
               help="Drawing of the vehicle.")
 def vehicle(vehicle, out):
     """Print the vehicle's parameters with their sources, and draw it to scale."""
-    from .vehicle_drawing import perform  # imported late, as above
+    from .commands.vehicle_drawing import perform  # imported late, as above
 
     try:
         perform(vehicle, out)

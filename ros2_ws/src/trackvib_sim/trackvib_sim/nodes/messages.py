@@ -13,9 +13,18 @@ from . import topics
 
 
 def message_type(name):
-    """Return the class of a message type such as `sensor_msgs/msg/Imu`; raises ImportError or AttributeError."""
+    """Return the class of a message type such as `sensor_msgs/msg/Imu`.
+
+    Raises
+    ------
+    ValueError
+        It is not installed here.
+    """
     package, kind, message = name.split("/")
-    return getattr(import_module(f"{package}.{kind}"), message)
+    try:
+        return getattr(import_module(f"{package}.{kind}"), message)
+    except (ImportError, AttributeError):
+        raise ValueError(f"message type {name} is not installed") from None
 
 
 def set_stamp(message, nanoseconds):

@@ -109,8 +109,8 @@ class PlayerNode(LoopNode):
             qos.reliability = QoSReliabilityPolicy.BEST_EFFORT
         try:
             kind = message_type(connection.msgtype)
-        except (ImportError, AttributeError):
-            raise NodeError(f"the type {connection.msgtype} of {connection.topic} is not installed here") from None
+        except ValueError as error:
+            raise NodeError(f"{connection.topic} cannot be played: {error}") from None
         return self.create_publisher(kind, connection.topic.removeprefix("/"), qos)
 
     def _listeners(self):

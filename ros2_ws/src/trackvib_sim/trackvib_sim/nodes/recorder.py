@@ -17,8 +17,9 @@ from ..bags.versions import versions
 from ..bags.writing import COMPRESSIONS, BagError, BagWriter
 from ..simulation.settings import NANO
 from . import topics
+from .messages import message_type
 from .provenance import is_known, parameter_file, parameters_of, publishing_nodes
-from .topic_choice import TopicChoice, message_type, subscribe
+from .topic_choice import TopicChoice, subscribe
 
 DEFAULT_TOPICS = [
     topics.CHASSIS_IMU,

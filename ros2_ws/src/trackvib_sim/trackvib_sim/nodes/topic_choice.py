@@ -1,7 +1,6 @@
 """Which topics a recorder takes: those it is told by name, and those whose name a regular expression finds."""
 
 import re
-from importlib import import_module
 from typing import NamedTuple
 
 from mr_mount_controller.parameters import ParameterError
@@ -11,6 +10,7 @@ from rclpy.validate_topic_name import validate_topic_name
 
 from ..bags.qos import qos_record
 from . import topics
+from .messages import message_type
 
 _DEPTH = 10_000  # messages that may wait: a disk may stand still for a moment
 
@@ -103,18 +103,3 @@ def subscribe(node, name, on_message):
     stamped = first_field in ("std_msgs/Header", "builtin_interfaces/Time")
     topic = Topic(name, type_name, [qos_record(offer) for offer in offers], type_hash, stamped)
     return topic, node.create_subscription(kind, name, lambda data: on_message(topic, data), qos, raw=True)
-
-
-def message_type(type_name):
-    """Return the class of a message type such as `sensor_msgs/msg/Imu`.
-
-    Raises
-    ------
-    ValueError
-        It is not installed here.
-    """
-    package, kind, name = type_name.split("/")
-    try:
-        return getattr(import_module(f"{package}.{kind}"), name)
-    except (ImportError, AttributeError):
-        raise ValueError(f"message type {type_name} is not installed") from None

@@ -37,7 +37,7 @@ def replay(bag, verify, law, controller, out):
         raise click.UsageError("exactly one of --verify, --law and --controller is needed")
     from rich.console import Console  # imported late: --help need not wait for it
 
-    from .bags.writing import BagError
+    from ..bags.writing import BagError
     from .closed_loop_run import RunError
 
     console = Console(highlight=False)

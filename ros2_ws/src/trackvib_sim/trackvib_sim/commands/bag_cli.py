@@ -13,7 +13,7 @@ def bag():
 
 @contextmanager
 def _ends_in_one_line():
-    from .bags.writing import BagError  # imported late: --help need not wait for it
+    from ..bags.writing import BagError  # imported late: --help need not wait for it
 
     try:
         yield

@@ -5,8 +5,8 @@ from contextlib import contextmanager
 
 import click
 
+from ..road.iso8608 import CLASSES
 from .option_types import FiniteRange, Several
-from .road.iso8608 import CLASSES
 
 SCENARIOS = ("e10", "c20", "run_up", "bump")  # those of studies.controlled, which takes long to import
 
@@ -19,7 +19,7 @@ def study():
 @contextmanager
 def _ends_in_one_line(out):
     """Turn what can go wrong in a study into one line and an exit code."""
-    from .studies.farm import FarmError  # imported late: --help need not wait for it
+    from ..studies.farm import FarmError  # imported late: --help need not wait for it
 
     try:
         yield
@@ -51,7 +51,7 @@ _SCHEDULER = click.option("--scheduler", default=None, metavar="ADDRESS",
 def table1(classes, speeds, seeds, vehicle, scheduler, out):
     """RMS accelerations over classes and speeds, beside the paper's Table 1."""
     with _ends_in_one_line(out):
-        from .studies.table1 import perform  # imported late, as above
+        from ..studies.table1 import perform  # imported late, as above
 
         perform(classes, speeds, seeds, vehicle, scheduler, out)
 
@@ -64,7 +64,7 @@ def table1(classes, speeds, seeds, vehicle, scheduler, out):
 def figures(scheduler, out):
     """The paper's other figures as pictures, and a second solver beside ours."""
     with _ends_in_one_line(out):
-        from .studies.figures import perform  # imported late, as above
+        from ..studies.figures import perform  # imported late, as above
 
         perform(out, scheduler)
 
@@ -83,7 +83,7 @@ def figures(scheduler, out):
 def controllers(laws, scenarios, seeds, vehicle, scheduler, out):
     """Every control law on roads, in an engine run-up and over a bump, beside constant currents."""
     with _ends_in_one_line(out):
-        from .studies.controllers import perform  # imported late, as above
+        from ..studies.controllers import perform  # imported late, as above
 
         perform(laws, scenarios, seeds, vehicle, scheduler, out)
 
@@ -102,6 +102,6 @@ def controllers(laws, scenarios, seeds, vehicle, scheduler, out):
 def calibrate(generations, plan, vehicle, scheduler, out):
     """Fit uncertain parameters of the vehicle to the rows of the paper's Table 1 that are given."""
     with _ends_in_one_line(out):
-        from .studies.calibration import perform  # imported late, as above
+        from ..studies.calibration import perform  # imported late, as above
 
         perform(plan, vehicle, generations, scheduler, out)

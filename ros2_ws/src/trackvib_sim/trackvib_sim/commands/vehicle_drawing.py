@@ -6,10 +6,10 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from .analysis.vehicle_picture import vehicle_picture
-from .analysis.vehicle_table import Figure, Parameter, figures, parameters
-from .installed import default_vehicle_file
-from .vehicle.vehicle_file import read_vehicle
+from ..analysis.vehicle_picture import vehicle_picture
+from ..analysis.vehicle_table import Figure, Parameter, figures, parameters
+from ..installed import default_vehicle_file
+from ..vehicle.vehicle_file import read_vehicle
 
 
 def perform(vehicle_file, picture):

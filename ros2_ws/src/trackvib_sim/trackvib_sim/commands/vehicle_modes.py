@@ -6,12 +6,12 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from .analysis.mode_pictures import mode_pictures
-from .installed import default_vehicle_file
-from .rui.modes import describe, modes
-from .vehicle.linear import linear_vehicle
-from .vehicle.system import Operation, build_system
-from .vehicle.vehicle_file import read_vehicle
+from ..analysis.mode_pictures import mode_pictures
+from ..installed import default_vehicle_file
+from ..rui.modes import describe, modes
+from ..vehicle.linear import linear_vehicle
+from ..vehicle.system import Operation, build_system
+from ..vehicle.vehicle_file import read_vehicle
 
 DRAWN = 12  # most modes in the picture
 ALIKE = 0.05  # relative distance of neighbours that share a line, if the same parts move

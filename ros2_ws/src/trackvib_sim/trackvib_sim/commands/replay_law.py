@@ -7,8 +7,8 @@ from mr_mount_controller.laws import find_law
 from rich.progress import track
 from rich.table import Table
 
-from .analysis.replay_pictures import drives_picture
-from .analysis.summary import (
+from ..analysis.replay_pictures import drives_picture
+from ..analysis.summary import (
     AXES,
     SENSORS,
     SHORTEST_MEASURING,
@@ -17,19 +17,19 @@ from .analysis.summary import (
     TooShort,
     settling_time,
 )
-from .analysis.vibration import band, band_limited, rms
-from .bags.copying import copy_bag
-from .bags.replaying import read_recorded_drive
-from .bags.versions import versions
-from .bags.writing import BagWriter
+from ..analysis.vibration import band, band_limited, rms
+from ..bags.copying import copy_bag
+from ..bags.replaying import read_recorded_drive
+from ..bags.versions import versions
+from ..bags.writing import BagWriter
+from ..nodes import topics
+from ..nodes.rerun_bag import RerunBag
+from ..nodes.simulator_parameters import prepare_again
+from ..simulation.closed_loop import periods_under_law
+from ..simulation.settings import NANO
+from ..simulation.simulation import RunFailed
+from ..vehicle.mount_audit import mount_account
 from .closed_loop_run import make_folder
-from .nodes import topics
-from .nodes.rerun_bag import RerunBag
-from .nodes.simulator_parameters import prepare_again
-from .simulation.closed_loop import periods_under_law
-from .simulation.settings import NANO
-from .simulation.simulation import RunFailed
-from .vehicle.mount_audit import mount_account
 
 
 def perform(bag, law, out, console):

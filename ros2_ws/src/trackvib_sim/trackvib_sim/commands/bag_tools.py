@@ -4,9 +4,9 @@ from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
 
-from .bags.contents import contents
-from .bags.repair import repair
-from .simulation.settings import NANO
+from ..bags.contents import contents
+from ..bags.repair import repair
+from ..simulation.settings import NANO
 
 
 def show(path):

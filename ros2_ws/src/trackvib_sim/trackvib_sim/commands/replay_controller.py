@@ -8,16 +8,16 @@ import numpy as np
 from mr_mount_controller.node_support import LOOP_WRITER_QOS
 from rich.progress import track
 
-from .analysis.replay_pictures import currents_picture
-from .bags.copying import copy_bag
-from .bags.loop_messages import recorded_loop, sample_messages
-from .bags.qos import qos_record
-from .bags.writing import BagWriter
+from ..analysis.replay_pictures import currents_picture
+from ..bags.copying import copy_bag
+from ..bags.loop_messages import recorded_loop, sample_messages
+from ..bags.qos import qos_record
+from ..bags.writing import BagWriter
+from ..installed import closed_loop_parameters
+from ..nodes.controller_trial import ControllerTrial, read_answers
+from ..nodes.processes import LoopProcesses
+from ..simulation.settings import NANO
 from .closed_loop_run import RunError, make_folder, own_domain
-from .installed import closed_loop_parameters
-from .nodes.controller_trial import ControllerTrial, read_answers
-from .nodes.processes import LoopProcesses
-from .simulation.settings import NANO
 
 REPLAYED = "/replayed/current"  # topic of the new answers
 

@@ -9,14 +9,14 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
-from .analysis.bag_analysis import analyse
-from .analysis.bag_tables import write_tables
-from .analysis.levels import WEIGHTINGS
-from .analysis.report.excerpt import excerpt
-from .analysis.report.page import write_report
-from .analysis.summary import AXES
-from .bags.recording import read_recording
-from .bags.writing import BagError
+from ..analysis.bag_analysis import analyse
+from ..analysis.bag_tables import write_tables
+from ..analysis.levels import WEIGHTINGS
+from ..analysis.report.excerpt import excerpt
+from ..analysis.report.page import write_report
+from ..analysis.summary import AXES
+from ..bags.recording import read_recording
+from ..bags.writing import BagError
 
 
 class EvaluationError(RuntimeError):

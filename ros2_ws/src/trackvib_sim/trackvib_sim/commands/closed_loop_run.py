@@ -12,16 +12,16 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
-from .analysis.bag_analysis import analyse
-from .analysis.plots import run_picture
-from .analysis.summary import AXES, SENSORS, SHORTEST_MEASURING, prepare, settling_time, summarise
-from .bags.recording import read_recording
-from .bags.writing import BagError
-from .installed import closed_loop_parameters
-from .nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses
-from .nodes.road_excitation import PARAMETERS as ROAD_PARAMETERS
-from .nodes.watch import Watch
-from .vehicle.mount_audit import MountEnergy
+from ..analysis.bag_analysis import analyse
+from ..analysis.plots import run_picture
+from ..analysis.summary import AXES, SENSORS, SHORTEST_MEASURING, prepare, settling_time, summarise
+from ..bags.recording import read_recording
+from ..bags.writing import BagError
+from ..installed import closed_loop_parameters
+from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses
+from ..nodes.road_excitation import PARAMETERS as ROAD_PARAMETERS
+from ..nodes.watch import Watch
+from ..vehicle.mount_audit import MountEnergy
 
 HIGHEST_DOMAIN = 232  # of ROS 2; beyond it DDS has no ports
 _LOOK = 0.2  # s between looks at processes and progress

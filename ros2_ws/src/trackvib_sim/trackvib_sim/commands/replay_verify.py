@@ -6,12 +6,12 @@ from typing import NamedTuple
 import numpy as np
 from rich.progress import track
 
-from .bags.replaying import read_recorded_drive
-from .bags.versions import versions
-from .nodes.simulator_parameters import prepare_again
-from .simulation.recorded_currents import NotTold, currents_in_force
-from .simulation.settings import NANO
-from .simulation.simulation import CHASSIS, POWERTRAIN, RunFailed
+from ..bags.replaying import read_recorded_drive
+from ..bags.versions import versions
+from ..nodes.simulator_parameters import prepare_again
+from ..simulation.recorded_currents import NotTold, currents_in_force
+from ..simulation.settings import NANO
+from ..simulation.simulation import CHASSIS, POWERTRAIN, RunFailed
 
 _TAIL = NANO  # ns at the end of a bag in which its topics need not end together
 
