@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from mr_mount_controller.laws import find_law
 from rich.progress import Progress
-from trackvib_sim import study_cli
+from trackvib_sim.commands import study_cli
 from trackvib_sim.studies.campaign import finish
 from trackvib_sim.studies.case_store import CaseStore
 from trackvib_sim.studies.controlled import (
