@@ -90,7 +90,7 @@ def test_both_are_shown(start_cli, recorded_run, rerun, tmp_path):
 
 def test_a_rerun_ends_with_its_road(recorded_run, tmp_path, monkeypatch):
     """It says so, and compares what there is."""
-    from trackvib_sim import replay_law
+    from trackvib_sim.commands import replay_law
 
     def prepare_less(recording):
         return whole(recording._replace(road=[patch for patch in recording.road if patch[0] < 34.0]))
