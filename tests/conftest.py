@@ -14,6 +14,7 @@ import pytest
 import rclpy
 from ament_index_python.packages import get_package_prefix
 from diagnostic_msgs.msg import DiagnosticArray
+from mr_mount_controller.shared_memory import remove_unfinished_segments
 from rclpy.experimental import EventsExecutor
 from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import Trigger
@@ -159,6 +160,7 @@ class Observer:
     """A node in the test's own process: follows the simulator's diagnostics, calls its services."""
 
     def __init__(self, domain):
+        remove_unfinished_segments()
         self._context = rclpy.Context()
         rclpy.init(context=self._context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
         self._node = rclpy.create_node("observer", context=self._context)

@@ -14,6 +14,7 @@ from rclpy.qos import QoSDurabilityPolicy, QoSProfile
 from rclpy.signals import SignalHandlerOptions
 
 from .parameters import ParameterError
+from .shared_memory import remove_unfinished_segments
 
 # Loop topics are reliable and volatile. A reader holds a few periods, so that nobody acts on old samples; a writer
 # holds more, so that a recorder which is slow for a moment still gets everything.
@@ -101,6 +102,12 @@ class LoopNode(Node):
             raise ParameterError(f"{self.get_name()}: {error}") from None
 
 
+def start_ros(args=None):
+    """Start ROS 2 without signal handlers of its own, and without what killed processes left in its way."""
+    remove_unfinished_segments()
+    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+
+
 def run_node(make_node, args=None, companions=()):
     """Make a node, run it until it ends or a signal asks it to, and return the process's exit code.
 
@@ -112,7 +119,7 @@ def run_node(make_node, args=None, companions=()):
         signal.signal(number, lambda *_: stop.append(True))
     nodes = []
     try:
-        rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+        start_ros(args)
         executor = EventsExecutor()
         for make in (*companions, make_node):
             nodes.append(make())

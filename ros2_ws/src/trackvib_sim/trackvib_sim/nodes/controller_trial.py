@@ -5,10 +5,9 @@ from typing import NamedTuple
 
 import numpy as np
 import rclpy
-from mr_mount_controller.node_support import LOOP_QOS, LOOP_WRITER_QOS
+from mr_mount_controller.node_support import LOOP_QOS, LOOP_WRITER_QOS, start_ros
 from mr_mount_controller.packed_message import MessageReader
 from rclpy.experimental import EventsExecutor
-from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import Imu
 from trackvib_msgs.msg import CoilCurrent
 
@@ -45,7 +44,7 @@ class ControllerTrial:
     """A node that speaks to the controller as the simulator does; use as a context manager."""
 
     def __enter__(self):
-        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+        start_ros()
         self._node = rclpy.create_node("replay")
         self._imus = [self._node.create_publisher(Imu, topic, LOOP_WRITER_QOS)
                       for topic in (topics.CHASSIS_IMU, topics.POWERTRAIN_IMU)]  # fmt: skip

@@ -4,8 +4,8 @@ import time
 
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
+from mr_mount_controller.node_support import start_ros
 from rclpy.experimental import EventsExecutor
-from rclpy.signals import SignalHandlerOptions
 
 from .topics import CHASSIS_IMU, DIAGNOSTICS
 
@@ -16,7 +16,7 @@ class Watch:
     """Latest diagnostics of the simulator; use as a context manager."""
 
     def __enter__(self):
-        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+        start_ros()
         self._node = rclpy.create_node("trackvib_watch")
         self._values = {}
         self._node.create_subscription(DiagnosticArray, DIAGNOSTICS, self._on_diagnostics, 1)
