@@ -18,6 +18,7 @@ from mr_mount_controller.shared_memory import remove_unfinished_segments
 from rclpy.experimental import EventsExecutor
 from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import Trigger
+from trackvib_sim.nodes.processes import end_with_parent
 
 PACKAGES = {
     "simulator": "trackvib_sim",
@@ -30,6 +31,12 @@ PACKAGES = {
 # Only a bound for what hangs; nothing here measures speed.
 PATIENCE = 90.0
 DOMAINS = range(40, 100)
+
+
+def _begin():
+    """In a new process: a test run started in the background of a script has Ctrl-C ignored, and hands that on."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    end_with_parent()
 
 
 class Process:
@@ -46,8 +53,7 @@ class Process:
                 start_new_session=True,
                 env=env,
                 cwd=folder,
-                # a test run that was started in the background of a script has Ctrl-C ignored, and hands that on
-                preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+                preexec_fn=_begin,
             )
         self.pid = self._process.pid
 

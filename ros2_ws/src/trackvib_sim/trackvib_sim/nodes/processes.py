@@ -49,7 +49,7 @@ class LoopProcesses:
                     stdout=log,
                     stderr=subprocess.STDOUT,
                     start_new_session=True,
-                    preexec_fn=_end_with_parent,
+                    preexec_fn=end_with_parent,
                 )
 
     def ended(self):
@@ -81,5 +81,6 @@ def _wait(process, seconds):
     return process.poll() is not None
 
 
-def _end_with_parent():
+def end_with_parent():
+    """In a new process: let the kernel end it should its parent die."""
     ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
