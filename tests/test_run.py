@@ -174,7 +174,7 @@ def test_summary_and_picture(first):
     folder, printed = first
     summary = json.loads((folder / "summary.json").read_text())
     assert summary["band_hz"] == [0.5, 500.0]
-    assert 0.5 < summary["rms_mps2"]["powertrain"]["z"] < 5.0
+    assert 2.5 < summary["rms_mps2"]["powertrain"]["z"] < 10.0  # [Tao2025] has 5.5 on such a road at this speed
     assert f"{summary['rms_mps2']['powertrain']['z']:.3f}" in printed
     assert float(summary["loop"]["real_time_factor"]) > 0.0
     mounts = MountEnergy(**summary["mounts_J"])

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from trackvib_sim.analysis.summary import settling_time
+from trackvib_sim.analysis.settling import settling_time
 from trackvib_sim.analysis.vibration import band_limited, rms
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.open_loop import run_open_loop

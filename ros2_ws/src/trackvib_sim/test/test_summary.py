@@ -5,7 +5,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from trackvib_sim.analysis.summary import losses, mount_energy, settling_time
+from trackvib_sim.analysis.settling import settling_time
+from trackvib_sim.analysis.summary import losses, mount_energy
 from trackvib_sim.bags.recording import Answers, Inertial, Recording
 
 MS = 1_000_000  # ns

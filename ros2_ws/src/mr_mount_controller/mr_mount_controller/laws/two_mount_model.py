@@ -23,7 +23,7 @@ from ..mount import damping, stiffness
 HULL_MASS = 29_980.0  # kg, with turret and gun
 SUSPENSION_STIFFNESS = 2.28e6  # N/m, all torsion bars
 SUSPENSION_DAMPING = 3.18e5  # N s/m, all shock absorbers
-POWERTRAIN_MASS = 3240.0  # kg
+POWERTRAIN_MASS = 3200.0  # kg
 POWERTRAIN_INERTIA = 2390.0  # kg m^2, about the y axis through its centre
 CENTRE = (0.5486, 0.0399)
 MOUNTS = (0.80, -0.05)

@@ -10,17 +10,16 @@ from .bag_numbers import Analysis, History
 from .iso2631 import LEAST_RATE
 from .levels import Levels, bins
 from .mean_spectra import MeanSpectra, known_lines
+from .settling import SHORTEST_SETTLING, settling_time
 from .slow_numbers import bin_means, currents, moments, mount_numbers
 from .stretches import common, timing
 from .summary import (
     AXES,
     SENSORS,
     SHORTEST_MEASURING,
-    SHORTEST_SETTLING,
     TooShort,
     loop_health,
     mount_energy,
-    settling_time,
     start_of,
 )
 from .vibration import band

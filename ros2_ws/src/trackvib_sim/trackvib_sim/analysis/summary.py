@@ -11,11 +11,9 @@ from .vibration import band_limited
 
 AXES = ("x", "y", "z")
 SENSORS = ("chassis", "powertrain")
-SHORTEST_SETTLING = 2.0  # s
 SHORTEST_MEASURING = 1.0  # s
 MOUNTS = tuple(f"mount_{part}_J" for part in MountEnergy._fields)  # in the simulator's diagnostics
 MOST_LOST = 1000  # times the samples that are there
-VEHICLE_BEHIND = 2.5  # m from the hull's origin to beyond the rear wheels
 
 
 class TooShort(ValueError):
@@ -40,14 +38,6 @@ def prepare(recording, settle):
     time = (stamp - start_of(recording)) / NANO
     limited = {sensor: band_limited(values, rate) for sensor, values in raw.items()}
     return Prepared(time, raw, limited, rate, time > settle)
-
-
-def settling_time(speed, full_roughness):
-    """Return how long a run settles [s]: until the rear wheels are on the full roughness, at least 2 s.
-
-    `speed` [m/s] is that of the vehicle, `full_roughness` [m] the distance from which the road has all of it.
-    """
-    return max(SHORTEST_SETTLING, (full_roughness + VEHICLE_BEHIND) / speed) if speed > 0.0 else SHORTEST_SETTLING
 
 
 def start_of(recording):

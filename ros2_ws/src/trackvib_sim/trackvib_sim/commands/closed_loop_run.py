@@ -14,7 +14,8 @@ from rich.table import Table
 
 from ..analysis.bag_analysis import analyse
 from ..analysis.plots import run_picture
-from ..analysis.summary import AXES, SENSORS, SHORTEST_MEASURING, prepare, settling_time, summarise
+from ..analysis.settling import settling_time
+from ..analysis.summary import AXES, SENSORS, SHORTEST_MEASURING, prepare, summarise
 from ..bags.recording import read_recording
 from ..bags.writing import BagError
 from ..installed import closed_loop_parameters

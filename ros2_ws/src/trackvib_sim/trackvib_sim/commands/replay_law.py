@@ -8,14 +8,13 @@ from rich.progress import track
 from rich.table import Table
 
 from ..analysis.replay_pictures import drives_picture
+from ..analysis.settling import SHORTEST_SETTLING, settling_time
 from ..analysis.summary import (
     AXES,
     SENSORS,
     SHORTEST_MEASURING,
-    SHORTEST_SETTLING,
     Prepared,
     TooShort,
-    settling_time,
 )
 from ..analysis.vibration import band, band_limited, rms
 from ..bags.copying import copy_bag

@@ -8,7 +8,7 @@ from mr_mount_controller.laws import find_law
 from scipy import signal
 
 from ..analysis.iso2631 import weighted
-from ..analysis.summary import SHORTEST_SETTLING, VEHICLE_BEHIND, settling_time
+from ..analysis.settling import SHORTEST_SETTLING, VEHICLE_BEHIND, settling_time
 from ..analysis.vibration import band_limited, rms
 from ..road.bump import Bump
 from ..road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road

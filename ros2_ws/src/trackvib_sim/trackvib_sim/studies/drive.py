@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..analysis.summary import settling_time
+from ..analysis.settling import settling_time
 from ..analysis.vibration import band, band_limited, rms
 from ..road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road
 from ..simulation.open_loop import run_open_loop
