@@ -18,7 +18,7 @@ DECISIVE = (  # modules that `drive` runs; all others may change without making 
     "vehicle/**/*.py",
     "simulation/**/*.py",
     "analysis/iso2631.py",
-    "analysis/summary.py",
+    "analysis/settling.py",
     "analysis/vibration.py",
     "studies/drive.py",
     "studies/controlled.py",
