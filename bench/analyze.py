@@ -25,7 +25,7 @@ from rich.table import Table
 from rosbags.highlevel import AnyReader
 from trackvib_sim.analysis.bag_analysis import analyse
 from trackvib_sim.bags.cdr_layout import find_layout, type_store
-from trackvib_sim.bags.recording import read_recording
+from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.bags.schemas import schema_text
 from trackvib_sim.bags.writing import BagWriter
 

@@ -5,7 +5,7 @@ import signal
 import numpy as np
 import pytest
 from mr_mount_controller.laws import find_law, known_laws
-from trackvib_sim.bags.recording import read_recording
+from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.installed import default_vehicle_file
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.closed_loop import run_closed_loop

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from trackvib_sim.bags.recording import read_recording
+from trackvib_sim.bags.reading import read_recording
 
 pytestmark = pytest.mark.system
 

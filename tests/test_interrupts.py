@@ -6,7 +6,7 @@ import time
 
 import pytest
 import yaml
-from trackvib_sim.bags.recording import read_recording
+from trackvib_sim.bags.reading import read_recording
 
 pytestmark = pytest.mark.system
 

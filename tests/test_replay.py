@@ -9,7 +9,7 @@ import pytest
 from mr_mount_controller.laws.passive import Passive
 from rich.console import Console
 from rosbags.rosbag2 import Reader
-from trackvib_sim.bags.replaying import read_recorded_drive
+from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.bags.writing import BagWriter
 from trackvib_sim.commands.replay_law import perform
 from trackvib_sim.commands.replay_verify import verify
@@ -48,16 +48,16 @@ def test_a_rerun_is_the_run_under_that_law(rerun):
     vehicle, _ = read_vehicle(default_vehicle_file())
     simulation = Simulation(vehicle, RunSettings(Operation(10.0, 1650.0, False, 0.25), Rates(), 1.0))
     record = run_closed_loop(simulation, Iso8608Road("E", 1, 8.0, 8.0), Passive(1e-3), 3200)
-    drive = read_recorded_drive(rerun / "bag")
+    drive = read_recording(rerun / "bag")
     np.testing.assert_array_equal(drive.chassis.stamp, record.stamp)
     np.testing.assert_array_equal(drive.chassis.specific_force, record.specific_force[:, 0])
     np.testing.assert_array_equal(drive.powertrain.specific_force, record.specific_force[:, 1])
-    np.testing.assert_array_equal(drive.current, record.current)
+    np.testing.assert_array_equal(drive.answers.current, record.current)
 
 
 def test_a_rerun_leaves_a_whole_bag(rerun, recorded_run):
     """With all topics of the recorded one, its own law in the provenance, and fit to be verified itself."""
-    old, new = read_recorded_drive(recorded_run / "bag"), read_recorded_drive(rerun / "bag")
+    old, new = read_recording(recorded_run / "bag"), read_recording(rerun / "bag")
     before, after = counts(recorded_run / "bag"), counts(rerun / "bag")
     assert before.keys() == after.keys()
     for topic in before.keys() - {"/clock", "/diagnostics"}:  # which tell again while a run stands
@@ -112,10 +112,10 @@ def test_into_a_stock_controller(start_cli, recorded_run, tmp_path, law, words):
     assert replay.wait() == 0, replay.output
     assert "currents: 3200 of 3200 samples answered; " in replay.output and words in replay.output
     assert files(tmp_path / "out") == ["bag", "currents.png", "log", "summary.json"]
-    old, new = read_recorded_drive(recorded_run / "bag"), read_recorded_drive(tmp_path / "out" / "bag")
+    old, new = read_recording(recorded_run / "bag"), read_recording(tmp_path / "out" / "bag")
     both = counts(recorded_run / "bag") + Counter({"/replayed/current": 3200})
     assert counts(tmp_path / "out" / "bag") == both
-    np.testing.assert_array_equal(new.current, old.current)
+    np.testing.assert_array_equal(new.answers.current, old.answers.current)
 
 
 def test_into_a_controller_of_ones_own(start_cli, start_node, recorded_run, tmp_path):

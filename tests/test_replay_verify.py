@@ -4,10 +4,12 @@ import shutil
 import signal
 
 import pytest
-from mcap.records import Channel, Message, Metadata, Schema
+from mcap.records import Metadata
 from mcap.writer import Writer
 from rich.console import Console
-from trackvib_sim.bags.replaying import read_recorded_drive, records
+from trackvib_sim.bags.raw_messages import RawMessage, raw_records
+from trackvib_sim.bags.reading import read_recording
+from trackvib_sim.bags.schemas import schema_text
 from trackvib_sim.bags.stamps import leading_stamp
 from trackvib_sim.bags.writing import BagError
 from trackvib_sim.commands.replay_verify import verify
@@ -32,25 +34,23 @@ def edited(recorded_run, tmp_path):
     def make(message=lambda topic, data: data, provenance=lambda name, values: values):
         folder = tmp_path / "edited"
         folder.mkdir()
-        schemas, channels = {}, {}
+        channels = {}
         with (folder / "edited_0.mcap").open("wb") as file:
             writer = Writer(file)
             writer.start(profile="ros2", library="test")
-            for record in records(recorded_run / "bag"):
-                if isinstance(record, Schema) and record.id not in schemas:
-                    schemas[record.id] = writer.register_schema(record.name, record.encoding, record.data)
-                elif isinstance(record, Channel) and record.id not in channels:
-                    number = writer.register_channel(record.topic, "cdr", schemas[record.schema_id], record.metadata)
-                    channels[record.id] = number, record.topic
+            for record in raw_records(recorded_run / "bag"):
+                if isinstance(record, RawMessage) and record.topic not in channels:
+                    text = schema_text(record.type_name).encode()
+                    schema = writer.register_schema(record.type_name, "ros2msg", text)
+                    channels[record.topic] = writer.register_channel(record.topic, "cdr", schema, {})
+                if isinstance(record, RawMessage) and record.message is not None:
+                    time, data = record.message.log_time, message(record.topic, record.message.data)
+                    if data is not None:
+                        writer.add_message(channels[record.topic], time, data, time)
                 elif isinstance(record, Metadata):
                     values = provenance(record.name, dict(record.metadata))
                     if values is not None:
                         writer.add_metadata(record.name, values)
-                elif isinstance(record, Message):
-                    number, topic = channels[record.channel_id]
-                    data = message(topic, record.data)
-                    if data is not None:
-                        writer.add_message(number, record.log_time, data, record.log_time)
             writer.finish()
         return folder
 
@@ -107,7 +107,7 @@ def test_a_bag_that_is_cut_short(recorded_run, tmp_path):
     bag.mkdir()
     whole = (recorded_run / "bag" / "bag_0.mcap").read_bytes()
     (bag / "bag_0.mcap").write_bytes(whole[: len(whole) * 3 // 4])
-    assert 1000 < len(read_recorded_drive(bag).chassis.stamp) < 3200
+    assert 1000 < len(read_recording(bag).chassis.stamp) < 3200
     identical, verdict = check(bag)
     assert identical and "cut short" in verdict
 
@@ -194,7 +194,7 @@ def test_a_killed_controller(start_node, observer, tmp_path, policy):
     assert simulator.wait() == 0, simulator.output
     recorder.signal(signal.SIGINT)
     assert recorder.wait() == 0
-    silent = int(read_recorded_drive(tmp_path / "bag").told[-1, 1])
+    silent = int(read_recording(tmp_path / "bag").told.silent_periods[-1])
     assert 100 < silent < 3000
     assert check(tmp_path / "bag")[0]
 

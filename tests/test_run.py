@@ -16,7 +16,7 @@ from mr_mount_controller.laws.skyhook import Skyhook
 from rclpy.serialization import deserialize_message
 from rosbags.highlevel import AnyReader
 from rosbags.rosbag2 import Reader
-from trackvib_sim.bags.recording import read_recording
+from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.installed import default_vehicle_file
 from trackvib_sim.nodes.topic_choice import message_type
 from trackvib_sim.road.iso8608 import Iso8608Road

@@ -4,7 +4,7 @@ import signal
 
 import pytest
 from mcap.reader import make_reader
-from trackvib_sim.bags.recording import read_recording
+from trackvib_sim.bags.reading import read_recording
 
 pytestmark = pytest.mark.system
 

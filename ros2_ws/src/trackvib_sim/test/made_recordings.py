@@ -4,7 +4,7 @@ from collections import Counter
 from pathlib import Path
 
 import numpy as np
-from trackvib_sim.bags.recording import Answers, Inertial, Mounts, Odometry, Recording
+from trackvib_sim.bags.recording import Answers, Inertial, Mounts, Odometry, Recording, Told
 from trackvib_sim.installed import default_vehicle_file
 
 MS = 1_000_000  # ns
@@ -20,11 +20,14 @@ def made_recording(milliseconds, chassis=None, powertrain=None, speed=10.0):
     slow = np.arange(0, milliseconds[-1] + 1, 10) * MS
     return Recording(
         path=Path("bag"),
+        topics={end: f"/ns/{end}" for end in ("chassis/imu", "powertrain/imu", "mount_state")},
         chassis=Inertial(stamp, chassis, np.zeros((count, 3))),
         powertrain=Inertial(stamp, powertrain, np.zeros((count, 3))),
         mounts=Mounts(stamp, pair, 1e6 * pair, 1e3 * pair, vectors, vectors, vectors, 5.0 * pair),
         answers=Answers(stamp, 2.0 * pair),
         odometry=Odometry(slow, np.zeros((len(slow), 3)), np.full(len(slow), speed)),
+        road=[],
+        told=Told(*np.zeros((3, 0), np.int64)),
         diagnostics={"late": "0"},
         provenance={
             "parameters of /ns/simulator": {"speed": str(speed), "engine_speed": "1650.0"},
@@ -32,4 +35,5 @@ def made_recording(milliseconds, chassis=None, powertrain=None, speed=10.0):
         },
         counts=Counter({"/chassis/imu": count}),
         vehicle=default_vehicle_file().read_text(encoding="utf-8"),
+        complete=True,
     )

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from trackvib_sim.bags.recording import Answers, Told
 from trackvib_sim.road.bump import Bump
 from trackvib_sim.road.feeder import RoadFeeder
 from trackvib_sim.simulation.recorded_currents import NotTold, currents_in_force
@@ -14,13 +15,12 @@ pytestmark = pytest.mark.property
 
 PERIOD = 1_000_000  # ns
 PERIODS = 60
-NO_WORD = np.zeros((0, 3), dtype=np.int64)
+NO_WORD = np.zeros((0, 3), dtype=np.int64)  # stamp, silent periods, answers
 
 
 def recorded(simulation, currents, answers, told=NO_WORD):
     """Drive with currents (k, 2) in force, and return what a bag with these answers (number of sample, A) tells."""
-    for patch in RoadFeeder(Bump(0.0, 1.0, 0.0), HORIZON).patches(0.0):
-        simulation.road.add(patch[0], patch[1], *patch[2])
+    lay_road(simulation)
     seen = []
     for current in currents:
         simulation.advance(current)
@@ -28,16 +28,34 @@ def recorded(simulation, currents, answers, told=NO_WORD):
     simulation.reset()
     stamps = np.arange(1, len(seen) + 1) * PERIOD
     return SimpleNamespace(
-        answered=np.array([number * PERIOD for number, _ in answers], dtype=np.int64),
-        current=np.array([current for _, current in answers]).reshape(-1, 2),
-        mounts=SimpleNamespace(stamp=stamps, values=np.array(seen)),
-        told=told,
+        answers=Answers(
+            np.array([number * PERIOD for number, _ in answers], dtype=np.int64),
+            np.array([current for _, current in answers]).reshape(-1, 2),
+        ),
+        mounts=SimpleNamespace(stamp=stamps, current=np.array(seen)),
+        told=Told(*told.T),
     )
 
 
+def lay_road(simulation):
+    """Give a simulation level road."""
+    for patch in RoadFeeder(Bump(0.0, 1.0, 0.0), HORIZON).patches(0.0):
+        simulation.road.add(patch[0], patch[1], *patch[2])
+
+
+def driven(simulation, drive, on_silence="hold"):
+    """Drive again, and yield the currents in force period by period."""
+    lay_road(simulation)
+    for current in islice(currents_in_force(simulation, drive, on_silence), PERIODS):
+        yield current
+        simulation.advance(current)
+
+
 def in_force(simulation, drive, on_silence="hold"):
-    """Return the currents of all periods."""
-    return np.array(list(islice(currents_in_force(simulation, drive, on_silence), PERIODS)))
+    """Return the currents of all periods (k, 2); the simulation is as before."""
+    currents = np.array(list(driven(simulation, drive, on_silence)))
+    simulation.reset()
+    return currents
 
 
 @pytest.fixture
@@ -64,7 +82,7 @@ def test_of_two_answers_the_one_that_acted(simulation, vehicle_with, drawn):
     found = in_force(one, drive)
     seen = PERIODS - 3  # the last ones show in no recorded current yet
     # what makes no difference, since the driver's voltage is at its limit, need not be told apart
-    np.testing.assert_array_equal(recorded(one, found, []).mounts.values[:seen], drive.mounts.values[:seen])
+    np.testing.assert_array_equal(recorded(one, found, []).mounts.current[:seen], drive.mounts.current[:seen])
     assert np.mean(found[:seen] == drawn[:seen]) > 0.8
 
 
@@ -92,7 +110,7 @@ def test_answers_that_are_no_currents_never_act(simulation, drawn):
 def test_a_missing_answer_is_named(simulation, drawn, told):
     """Where no silence was told, or more answers than are recorded, the current is unknown from there on."""
     one, answers = simulation(5.0), [(number, drawn[number]) for number in range(1, PERIODS) if number != 30]
-    currents = currents_in_force(one, recorded(one, drawn, answers, told), "hold")
+    currents = driven(one, recorded(one, drawn, answers, told))
     for k in range(30):
         np.testing.assert_array_equal(next(currents), drawn[k])
     with pytest.raises(NotTold, match=r"sample at t = 0.030 s"):

@@ -1,13 +1,12 @@
 """What a summary says of a run: losses, settling, where the work on the mounts went."""
 
-from collections import Counter
-from pathlib import Path
-
 import numpy as np
 import pytest
 from trackvib_sim.analysis.settling import settling_time
 from trackvib_sim.analysis.summary import losses, mount_energy
-from trackvib_sim.bags.recording import Answers, Inertial, Recording
+from trackvib_sim.bags.recording import Answers, Inertial
+
+from .made_recordings import made_recording
 
 MS = 1_000_000  # ns
 
@@ -19,8 +18,10 @@ def drive(chassis, powertrain, answered, time):
         for stamps in (chassis, powertrain)
     ]
     answers = Answers(np.array(answered) * MS, np.ones((len(answered), 2)))
-    told = {"time": str(time)}
-    return Recording(Path("bag"), *sensors, None, answers, None, told, {}, Counter(), None)
+    chassis, powertrain = sensors
+    return made_recording(range(1, 101))._replace(
+        chassis=chassis, powertrain=powertrain, odometry=None, answers=answers, diagnostics={"time": str(time)}
+    )
 
 
 @pytest.mark.property

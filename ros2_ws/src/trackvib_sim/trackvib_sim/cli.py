@@ -43,11 +43,12 @@ def _interrupt():
               help="Folder to make for the run.  [default: runs/<time>_<road>_<speed>]")
 def run(road_class, speed, duration, law, seed, one_process, out):
     """Run the closed loop as four ROS 2 nodes; leaves a bag, a summary and a picture."""
-    from .commands.closed_loop_run import Choices, RunError, perform  # imported late: --help need not wait for it
+    from .commands.closed_loop_run import Choices, perform  # imported late: --help need not wait for it
+    from .commands.result_folder import CommandError
 
     try:
         perform(Choices(road_class, speed, duration, law, seed, one_process), out)
-    except RunError as error:
+    except CommandError as error:
         click.echo(f"error: {error}", err=True)
         sys.exit(1)
     except KeyboardInterrupt:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from rclpy.serialization import serialize_message
 from rosbags.highlevel import AnyReader
 from std_msgs.msg import String
-from trackvib_sim.bags.recording import read_recording
+from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.bags.writing import BagError, BagWriter
 from trackvib_sim.simulation.settings import NANO
 

@@ -4,6 +4,7 @@ from math import hypot, isnan
 
 import numpy as np
 
+from ..bags.provenance import parameters_with
 from ..simulation.settings import NANO
 from ..vehicle.vehicle_file import VehicleFileError, parse_vehicle
 from .bag_numbers import Analysis, History
@@ -33,18 +34,17 @@ TOPICS = {
 }
 
 
-def parameters_of(recording, node):
-    """Return the parameters of a node by its name without namespace, as text; empty if the bag does not tell them."""
-    return next((told for name, told in recording.provenance.items() if name.endswith(f"/{node}")), {})
-
-
 def settling_of(recording):
     """Return the time [s] that the recorded run settles, by the parameters of its nodes; the shortest if not told."""
-    road, simulator = (parameters_of(recording, node) for node in ("road_excitation", "simulator"))
+    road, simulator = _told(recording, "level_until"), _told(recording, "engine_speed")
     try:
         return settling_time(float(simulator["speed"]), float(road["level_until"]) + float(road["fade"]))
     except (KeyError, ValueError):
         return SHORTEST_SETTLING
+
+
+def _told(recording, parameter):
+    return parameters_with(recording.provenance, parameter)[1]
 
 
 def analyse(recording, settle=None, follow=lambda done, total: None):
@@ -156,7 +156,7 @@ def _speed(recording, settled):
 
 def _lines(recording, spectra, speed):
     """Return the engine's speed [r/min], the `Line`s, and why there are fewer."""
-    why, engine_speed = [], parameters_of(recording, "simulator").get("engine_speed", "nan")
+    why, engine_speed = [], _told(recording, "engine_speed").get("engine_speed", "nan")
     engine_speed = float(engine_speed)
     if recording.odometry is None:
         why.append("no odometry in the bag: no speed, no levels of link passing")

@@ -31,10 +31,11 @@ class Prepared(NamedTuple):
 
 
 def prepare(recording, settle):
-    """Return what pictures show; the first `settle` seconds count as settling."""
-    stamp = recording.chassis.stamp
-    rate = NANO / period_of(stamp)
-    raw = {sensor: getattr(recording, sensor).specific_force for sensor in SENSORS}
+    """Return what pictures show: samples that both sensors have; the first `settle` seconds count as settling."""
+    sensors = [getattr(recording, sensor) for sensor in SENSORS]
+    rate = NANO / period_of(sensors[0].stamp)
+    stamp, *there = np.intersect1d(*(sensor.stamp for sensor in sensors), return_indices=True)
+    raw = {name: sensor.specific_force[index] for name, sensor, index in zip(SENSORS, sensors, there, strict=True)}
     time = (stamp - start_of(recording)) / NANO
     limited = {sensor: band_limited(values, rate) for sensor, values in raw.items()}
     return Prepared(time, raw, limited, rate, time > settle)

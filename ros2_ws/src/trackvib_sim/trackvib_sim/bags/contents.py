@@ -7,8 +7,8 @@ from typing import NamedTuple
 from mcap.exceptions import McapError
 from mcap.reader import make_reader
 
+from .files import bag_files
 from .metadata import channels, summary_of
-from .repair import bag_files
 from .writing import BagError
 
 

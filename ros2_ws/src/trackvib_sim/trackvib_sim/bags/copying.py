@@ -1,15 +1,14 @@
 """Copies what a bag holds into another one, byte for byte."""
 
 import yaml
-from mcap.exceptions import EndOfFile
-from mcap.records import Channel, Header, Message, Schema
+from mcap.records import Attachment
 
-from .replaying import records
+from .raw_messages import RawMessage, raw_records
 from .writing import BagError
 
 
-def copy_bag(path, writer, wanted=lambda topic: True):
-    """Announce all topics of a bag to a `BagWriter`, copy the messages of the wanted ones, and return all topics.
+def copy_bag(path, writer, wanted=lambda topic: True, attached=lambda name: True):
+    """Announce all topics of a bag to a `BagWriter`, copy wanted messages and attachments, and return all topics.
 
     A bag that is cut short is copied as far as it goes.
 
@@ -19,28 +18,23 @@ def copy_bag(path, writer, wanted=lambda topic: True):
         The bag cannot be read, or the type of a message is not installed.
     """
     known = set()
-    schemas, topics = {}, {}  # by their numbers
-    try:
-        for record in records(path):
-            if isinstance(record, Header):  # each file of a bag has numbers of its own
-                schemas, topics = {}, {}
-            elif isinstance(record, Schema):
-                schemas[record.id] = record.name
-            elif isinstance(record, Channel):
-                topics[record.id] = record.topic
-                if record.topic not in known:
-                    known.add(record.topic)
-                    _announce(record, schemas[record.schema_id], writer)
-            elif isinstance(record, Message) and wanted(topics[record.channel_id]):
-                writer.write(topics[record.channel_id], record.log_time, record.data)
-    except EndOfFile:
-        pass
+    for record in raw_records(path):
+        if isinstance(record, Attachment) and attached(record.name):
+            writer.add_attachment(record.name, record.data.decode())
+        if not isinstance(record, RawMessage):
+            continue
+        if record.topic not in known:
+            known.add(record.topic)
+            _announce(record, writer)
+        if record.message is not None and wanted(record.topic):
+            writer.write(record.topic, record.message.log_time, record.message.data)
     return known
 
 
-def _announce(channel, type_name, writer):
-    qos = yaml.safe_load(channel.metadata.get("offered_qos_profiles", "[]"))
+def _announce(record, writer):
+    offered = record.channel.metadata
+    qos = yaml.safe_load(offered.get("offered_qos_profiles", "[]"))
     try:
-        writer.add_topic(channel.topic, type_name, qos, channel.metadata.get("topic_type_hash", ""))
+        writer.add_topic(record.topic, record.type_name, qos, offered.get("topic_type_hash", ""))
     except LookupError:
-        raise BagError(f"the type {type_name} of {channel.topic} is not installed here") from None
+        raise BagError(f"the type {record.type_name} of {record.topic} is not installed here") from None

@@ -12,9 +12,11 @@ from mcap.records import Channel, Chunk, Metadata, Schema
 from mcap.stream_reader import MAGIC_SIZE, get_chunk_data_stream, read_magic
 
 from ..rui.compiled import kernel
+from .salvage import DAMAGE, cut_chunk
 
 _FRAME = Struct("<BQ")  # of every record: what it is, and how many bytes follow
 _MESSAGE = np.dtype([("channel", "<u2"), ("sequence", "<u4"), ("log_time", "<u8"), ("publish_time", "<u8")])
+_WANTED = (Opcode.SCHEMA, Opcode.CHANNEL, Opcode.MESSAGE)  # of what stands outside of chunks
 _OUTSIDE = 1 << 20  # bytes of records outside of chunks that are taken together
 
 
@@ -33,47 +35,72 @@ class Messages(NamedTuple):
     size: np.ndarray  # (k,) of the message proper, bytes
 
 
-def parts(file, metadata):
-    """Iterate over the `Part`s of an open file that hold schemas, channels and messages, as far as it is whole.
+class PartedFile:
+    """An open MCAP file, part by part.
 
-    Parameters
+    Attributes
     ----------
-    file : binary file
     metadata : dict
-        Takes up the metadata records: name -> dict.
-
-    Raises
-    ------
-    mcap.exceptions.McapError, ValueError
-        It is no MCAP file, or a chunk is damaged.
+        The metadata records read so far: name -> dict.
+    complete : bool
+        Whether the file has its end; known when `parts` is through.
     """
-    if len(file.read(MAGIC_SIZE)) < MAGIC_SIZE:
-        raise InvalidMagic(b"")
-    whole = file.seek(0, SEEK_END)
-    file.seek(0)
-    read_magic(ReadDataStream(file))
-    outside, wanted = bytearray(), (Opcode.CHUNK, Opcode.METADATA, Opcode.SCHEMA, Opcode.CHANNEL, Opcode.MESSAGE)
-    while len(frame := file.read(_FRAME.size)) == _FRAME.size:
-        opcode, length = _FRAME.unpack(frame)
-        if opcode == Opcode.DATA_END or length > whole - file.tell():  # the end, or the file was cut short here
-            break
-        if opcode not in wanted:
-            file.seek(length, SEEK_CUR)
-            continue
-        record = file.read(length)
-        if opcode == Opcode.CHUNK:
+
+    def __init__(self, file):
+        self._file = file
+        self.metadata, self.complete = {}, False
+
+    def parts(self):
+        """Iterate over the `Part`s that hold schemas, channels and messages, as far as the file goes.
+
+        Raises
+        ------
+        mcap.exceptions.McapError, ValueError
+            It is no MCAP file, or a chunk is damaged.
+        """
+        if len(self._file.read(MAGIC_SIZE)) < MAGIC_SIZE:
+            raise InvalidMagic(b"")
+        size = self._file.seek(0, SEEK_END)
+        self._file.seek(0)
+        read_magic(ReadDataStream(self._file))
+        outside = bytearray()
+        while len(frame := self._file.read(_FRAME.size)) == _FRAME.size:
+            opcode, length = _FRAME.unpack(frame)
+            if opcode == Opcode.DATA_END:
+                self.complete = True
+                break
+            cut = length > size - self._file.tell()
+            if outside and (cut or opcode == Opcode.CHUNK or len(outside) > _OUTSIDE):
+                yield self._part(outside)  # what a chunk holds may be announced before it
+                outside = bytearray()
+            if cut:
+                self._file.seek(-_FRAME.size, SEEK_CUR)
+                yield self._part(cut_chunk(self._file))
+                break
+            if opcode == Opcode.CHUNK:
+                yield self._part(self._whole_chunk(self._file.read(length)))
+            elif opcode == Opcode.METADATA:
+                read = Metadata.read(_stream(self._file.read(length)))
+                self.metadata[read.name] = dict(read.metadata)
+            elif opcode in _WANTED:
+                outside += frame + self._file.read(length)
+            else:
+                self._file.seek(length, SEEK_CUR)
+        if outside:
+            yield self._part(outside)
+
+    def _part(self, data):
+        return Part(np.frombuffer(data, np.uint8), self._file.tell())
+
+    def _whole_chunk(self, record):
+        try:
             stream, size = get_chunk_data_stream(Chunk.read(_stream(record)), validate_crc=True)
-            yield Part(np.frombuffer(stream.read(size), np.uint8), file.tell())
-        elif opcode == Opcode.METADATA:
-            read = Metadata.read(_stream(record))
-            metadata[read.name] = dict(read.metadata)
-        else:
-            outside += frame + record
-            if len(outside) > _OUTSIDE:
-                yield Part(np.frombuffer(bytes(outside), np.uint8), file.tell())
-                outside.clear()
-    if outside:
-        yield Part(np.frombuffer(bytes(outside), np.uint8), file.tell())
+            return stream.read(size)
+        except DAMAGE as error:
+            place = self._file.tell()
+            raise ValueError(
+                f"the chunk before byte {place} is damaged ({error}); `trackvib bag repair` keeps the others"
+            ) from None
 
 
 def take_apart(data, schemas, channels):

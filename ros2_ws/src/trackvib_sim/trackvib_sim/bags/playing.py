@@ -1,12 +1,11 @@
 """Opens a bag for playing: raw messages in order of time, and the quality of service with which they came."""
 
-from pathlib import Path
-
 from mcap.exceptions import McapError
 from rosbags.highlevel import AnyReader, AnyReaderError
 from rosbags.interfaces import QosDurability, QosReliability
 from rosbags.rosbag2 import ReaderError
 
+from .files import bag_files
 from .writing import BagError
 
 
@@ -18,11 +17,8 @@ def open_bag(path):
     BagError
         There is no such bag, it holds no messages, or it cannot be read.
     """
-    files = sorted(Path(path).glob("*.mcap"))
-    if not files:
-        raise BagError(f"bag {str(path)!r} holds no .mcap file")
     try:
-        reader = AnyReader(files)
+        reader = AnyReader(bag_files(path))
         reader.open()
     except (OSError, McapError, AnyReaderError, ReaderError) as error:
         raise BagError(f"bag {str(path)!r} cannot be read: {error}; was it cut short?") from None

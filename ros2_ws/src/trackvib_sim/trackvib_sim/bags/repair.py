@@ -10,6 +10,7 @@ import yaml
 from mcap import records
 from mcap.writer import MCAP0_MAGIC, CompressionType, Writer
 
+from .files import bag_files
 from .metadata import summary_of, write_metadata
 from .salvage import DAMAGE, Salvage, is_sound
 from .writing import CHUNK, LIBRARY, BagError
@@ -32,20 +33,6 @@ class Repair(NamedTuple):
 
     files: list  # of `RepairedFile`; sound ones are not among them
     metadata: bool  # whether `metadata.yaml` was written
-
-
-def bag_files(path):
-    """Return the MCAP files of a bag folder.
-
-    Raises
-    ------
-    BagError
-        There are none.
-    """
-    files = sorted(Path(path).glob("*.mcap"))
-    if not files:
-        raise BagError(f"{str(path)!r} is no bag: a folder with .mcap files is asked for")
-    return files
 
 
 def repair(path, told=lambda done, size: None):

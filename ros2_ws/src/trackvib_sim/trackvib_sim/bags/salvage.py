@@ -56,7 +56,7 @@ class Salvage:
         self.unread = self._stream.tell() - end
         if self.unread:
             self._stream.seek(end)
-            contents = _cut_chunk(self._stream)
+            contents = cut_chunk(self._stream)
             yield from _whole(BytesIO(contents), len(contents), skip_magic=True)
 
 
@@ -83,8 +83,11 @@ def _whole(stream, size, skip_magic):
         yield record
 
 
-def _cut_chunk(stream):
-    """Return what can be decompressed of a chunk whose end is missing: zstd gives whole blocks, of 128 KiB at most."""
+def cut_chunk(stream):
+    """Return the contents of a chunk that begins at the place of a file and lacks its end, as far as they go.
+
+    zstd gives whole blocks, of 128 KiB at most. Of what is no chunk nothing is returned.
+    """
     data = ReadDataStream(stream)
     try:
         if data.read1() != Opcode.CHUNK:

@@ -16,11 +16,13 @@ from .option_types import FiniteRange
               help="Folder to make for the results.  [default: analyses/<time>]")
 def analyze(bags, settle, out):
     """Turn bags into numbers: RMS, ISO 2631-1, spectra, mounts, currents, as JSON, CSV and Parquet."""
-    from .bag_evaluation import EvaluationError, perform  # imported late: --help need not wait for it
+    from ..bags.writing import BagError  # imported late: --help need not wait for it
+    from .bag_evaluation import perform
+    from .result_folder import CommandError
 
     try:
         perform(bags, settle, out)
-    except EvaluationError as error:
+    except (BagError, CommandError) as error:
         click.echo(f"error: {error}", err=True)
         sys.exit(1)
     except KeyboardInterrupt:

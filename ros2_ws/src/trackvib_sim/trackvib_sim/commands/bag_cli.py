@@ -26,7 +26,7 @@ def _ends_in_one_line():
 
 
 @bag.command()
-@click.argument("bag", type=click.Path(file_okay=False, exists=True))
+@click.argument("bag", type=click.Path())
 def info(bag):
     """Show what is in a bag: topics, messages, times, and what made it."""
     with _ends_in_one_line():
@@ -36,7 +36,7 @@ def info(bag):
 
 
 @bag.command()
-@click.argument("bag", type=click.Path(file_okay=False, exists=True))
+@click.argument("bag", type=click.Path(file_okay=False))
 def repair(bag):
     """Complete a bag whose recorder was killed or whose disk was full.
 

@@ -1,7 +1,5 @@
 """`trackvib analyze`: bags are read and measured one after the other; tables on the screen, files in one new folder."""
 
-import shutil
-from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
 
@@ -15,12 +13,8 @@ from ..analysis.levels import WEIGHTINGS
 from ..analysis.report.excerpt import excerpt
 from ..analysis.report.page import write_report
 from ..analysis.summary import AXES
-from ..bags.recording import read_recording
-from ..bags.writing import BagError
-
-
-class EvaluationError(RuntimeError):
-    """Bags that cannot be analysed, or results that cannot be written."""
+from ..bags.reading import read_recording
+from .result_folder import CommandError, all_or_nothing
 
 
 def perform(bags, settle, out):
@@ -28,11 +22,12 @@ def perform(bags, settle, out):
 
     Raises
     ------
-    EvaluationError
+    BagError, CommandError
         A bag cannot be read or is too short, or the folder exists or cannot be written. No folder is left then.
     """
     console = Console(highlight=False)
-    with _new_folder(out) as folder:
+    folder = out or Path("analyses") / f"{datetime.now():%Y%m%dT%H%M%S}"
+    with all_or_nothing(folder) as folder:
         analyses, excerpts = [], []
         with _progress(console) as progress:
             for bag in bags:
@@ -40,7 +35,7 @@ def perform(bags, settle, out):
                 try:
                     analyses.append(analyse(recording, settle, _follower(progress, f"measuring {bag}")))
                 except ValueError as error:
-                    raise EvaluationError(f"bag {bag!r}: {error}") from None
+                    raise CommandError(f"bag {bag!r}: {error}") from None
                 excerpts.append(excerpt(recording, analyses[-1]))
         write_tables(analyses, folder)
         write_report(excerpts, folder / "report.html")
@@ -52,27 +47,6 @@ def perform(bags, settle, out):
     for table in (_levels, _lines, _mounts):
         console.print(table(analyses))
     console.print(f"left in {folder}: {', '.join(sorted(each.name for each in folder.iterdir()))}", soft_wrap=True)
-
-
-@contextmanager
-def _new_folder(out):
-    """Make the folder for the results; it is taken away again if they do not come about."""
-    folder = Path(out) if out is not None else Path("analyses") / f"{datetime.now():%Y%m%dT%H%M%S}"
-    try:
-        folder.mkdir(parents=True)
-    except FileExistsError:
-        raise EvaluationError(f"{str(folder)!r} exists already; nothing is overwritten, choose another --out") from None
-    except OSError as error:
-        raise EvaluationError(f"{str(folder)!r} cannot be made: {error.strerror}") from None
-    try:
-        yield folder
-    except BaseException as error:
-        shutil.rmtree(folder, ignore_errors=True)
-        if isinstance(error, BagError):
-            raise EvaluationError(str(error)) from None
-        if isinstance(error, OSError):
-            raise EvaluationError(f"{str(folder)!r} cannot be written: {error.strerror or error}") from None
-        raise
 
 
 def _progress(console):

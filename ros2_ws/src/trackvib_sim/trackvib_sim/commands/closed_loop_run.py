@@ -16,20 +16,17 @@ from ..analysis.bag_analysis import analyse
 from ..analysis.plots import run_picture
 from ..analysis.settling import settling_time
 from ..analysis.summary import AXES, SENSORS, SHORTEST_MEASURING, prepare, summarise
-from ..bags.recording import read_recording
+from ..bags.reading import read_recording
 from ..bags.writing import BagError
 from ..installed import closed_loop_parameters
 from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses
 from ..nodes.road_excitation import PARAMETERS as ROAD_PARAMETERS
 from ..nodes.watch import Watch
 from ..vehicle.mount_audit import MountEnergy
+from .result_folder import CommandError, make_folder
 
 HIGHEST_DOMAIN = 232  # of ROS 2; beyond it DDS has no ports
 _LOOK = 0.2  # s between looks at processes and progress
-
-
-class RunError(RuntimeError):
-    """A run that cannot be done or did not end as it should."""
 
 
 @dataclass(frozen=True)
@@ -60,14 +57,14 @@ def perform(choices, out):
 
     Raises
     ------
-    RunError
+    CommandError
         The duration is too short, the folder exists, a node ended on its own, or the bag cannot be read.
     KeyboardInterrupt
         After the nodes have ended in order and what there is has been summarised.
     """
     needed = choices.settling + SHORTEST_MEASURING
     if choices.duration < needed:
-        raise RunError(
+        raise CommandError(
             f"--duration is {choices.duration:g} s, must be at least {needed:.1f} s at {choices.speed:g} m/s: "
             f"{choices.settling:.1f} s to settle and {SHORTEST_MEASURING:g} s to measure"
         )
@@ -81,18 +78,18 @@ def perform(choices, out):
     try:
         _evaluate(choices, folder, console)
     except (BagError, ValueError) as error:
-        raise interrupt or RunError(str(error)) from None
+        raise interrupt or CommandError(str(error)) from None
     if interrupt is not None:
         raise interrupt
 
 
 @contextmanager
 def own_domain():
-    """Hold the ROS domain against further runs; raise `RunError` if it is impossible or taken."""
+    """Hold the ROS domain against further runs; raise `CommandError` if it is impossible or taken."""
     domain = os.environ.get("ROS_DOMAIN_ID") or "0"
     if not (domain.isdecimal() and int(domain) <= HIGHEST_DOMAIN):
-        raise RunError(f"ROS_DOMAIN_ID is {domain!r}, accepted is a whole number from 0 to {HIGHEST_DOMAIN}")
-    taken = RunError(f"a simulator runs in ROS domain {domain} already; set another ROS_DOMAIN_ID")
+        raise CommandError(f"ROS_DOMAIN_ID is {domain!r}, accepted is a whole number from 0 to {HIGHEST_DOMAIN}")
+    taken = CommandError(f"a simulator runs in ROS domain {domain} already; set another ROS_DOMAIN_ID")
     # a name that the kernel frees with the process, however that ends
     with socket.socket(socket.AF_UNIX) as claim:
         try:
@@ -104,18 +101,6 @@ def own_domain():
             if watch.simulator_is_there():
                 raise taken
         yield
-
-
-def make_folder(path):
-    """Make a new folder for what a command leaves; raise `RunError` if there is one or it cannot be made."""
-    folder = Path(path)
-    try:
-        folder.mkdir(parents=True)
-    except FileExistsError:
-        raise RunError(f"{str(folder)!r} exists already; nothing is overwritten, choose another --out") from None
-    except OSError as error:
-        raise RunError(f"{str(folder)!r} cannot be made: {error.strerror}") from None
-    return folder
 
 
 def _run_nodes(choices, folder, console):
@@ -137,7 +122,7 @@ def _run_nodes(choices, folder, console):
     codes = processes.stop()
     if interrupted is None and any(codes.values()):
         name = next(name for name in (*first, *codes) if codes[name])
-        raise RunError(f"'{name}' ended with exit code {codes[name]}; it said:\n{processes.last_words(name)}")
+        raise CommandError(f"'{name}' ended with exit code {codes[name]}; it said:\n{processes.last_words(name)}")
     return interrupted
 
 

@@ -19,7 +19,7 @@ def _law_or_external(context, parameter, value):
 
 
 @click.command()
-@click.argument("bag", type=click.Path(file_okay=False))
+@click.argument("bag", type=click.Path())
 @click.option("--verify", is_flag=True,
               help="Drive the simulator on the recorded road and currents; its sensors must come out bit-identical. "
                    "Exit code 0: they do, 1: they do not, 2: the bag does not tell enough.")
@@ -38,7 +38,7 @@ def replay(bag, verify, law, controller, out):
     from rich.console import Console  # imported late: --help need not wait for it
 
     from ..bags.writing import BagError
-    from .closed_loop_run import RunError
+    from .result_folder import CommandError
 
     console = Console(highlight=False)
     name = (law or controller or "").rpartition(":")[2]
@@ -56,7 +56,7 @@ def replay(bag, verify, law, controller, out):
             from .replay_controller import perform
 
             perform(bag, None if controller == EXTERNAL else controller, out, console)
-    except (BagError, LawError, RunError, ValueError, OSError) as error:
+    except (BagError, LawError, CommandError, ValueError, OSError) as error:
         click.echo(f"{'cannot be verified' if verify else 'error'}: {error}", err=True)
         sys.exit(CANNOT_VERIFY if verify else 1)
     except KeyboardInterrupt:

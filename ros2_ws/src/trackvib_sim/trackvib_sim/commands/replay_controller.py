@@ -9,15 +9,18 @@ from mr_mount_controller.node_support import LOOP_WRITER_QOS
 from rich.progress import track
 
 from ..analysis.replay_pictures import currents_picture
+from ..analysis.stretches import period_of
 from ..bags.copying import copy_bag
-from ..bags.loop_messages import recorded_loop, sample_messages
 from ..bags.qos import qos_record
-from ..bags.writing import BagWriter
+from ..bags.raw_messages import sample_messages
+from ..bags.reading import read_recording
+from ..bags.writing import BagError, BagWriter
 from ..installed import closed_loop_parameters
-from ..nodes.controller_trial import ControllerTrial, read_answers
+from ..nodes.controller_trial import ControllerTrial
 from ..nodes.processes import LoopProcesses
 from ..simulation.settings import NANO
-from .closed_loop_run import RunError, make_folder, own_domain
+from .closed_loop_run import own_domain
+from .result_folder import CommandError, make_folder
 
 REPLAYED = "/replayed/current"  # topic of the new answers
 
@@ -30,40 +33,44 @@ def perform(bag, law, out, console):
 
     Raises
     ------
-    BagError, RunError
+    BagError, CommandError
         The bag lacks a topic, the folder cannot be made, the domain is taken, or the controller ended.
     """
-    loop = recorded_loop(bag)
+    recording = read_recording(bag)
+    recording.require()
+    samples = len(recording.chassis.stamp)
+    if samples < 2:
+        raise BagError(f"bag {str(bag)!r} holds a single sample, at least two are needed")
     with own_domain():
         folder = make_folder(out)
         writer = BagWriter(folder / "bag")
         try:
             copy_bag(bag, writer)
-            for name, told in loop.provenance.items():
+            for name, told in recording.provenance.items():
                 writer.add_provenance(name, told)
             writer.add_provenance("replay", {"bag": bag, "controller": law or "external"})
-            replayed = _replay(bag, loop, law, writer, folder, console)
+            replayed = _replay(recording, law, writer, folder, console)
         finally:
             writer.close()
-    summary = {"bag": str(bag), "controller": law or "external", "samples": loop.samples, "answered": len(replayed)}
+    summary = {"bag": str(bag), "controller": law or "external", "samples": samples, "answered": len(replayed)}
     title = f"{Path(bag).name} into {law or 'a controller'}"
-    summary |= _compare(read_answers(loop.answers), replayed, folder / "currents.png", title)
+    summary |= _compare(_answers(recording), replayed, folder / "currents.png", title)
     (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
     console.print(_words(summary), soft_wrap=True)
     console.print(f"left in {folder}: {', '.join(sorted(path.name for path in folder.iterdir()))}", soft_wrap=True)
 
 
-def _replay(bag, loop, law, writer, folder, console):
+def _replay(recording, law, writer, folder, console):
     """Return the controller's currents by stamp [ns], which go to the bag as they come."""
-    replayed = {}
-    with _controller(law, loop.rate, folder) as check, ControllerTrial() as trial:
+    replayed, topics, stamps = {}, recording.topics, recording.chassis.stamp
+    with _controller(law, round(NANO / period_of(stamps)), folder) as check, ControllerTrial() as trial:
         if law is None:
             console.print("waiting for a controller that listens to chassis/imu or powertrain/imu and answers on "
                           "coil_current", soft_wrap=True)  # fmt: skip
         trial.wait_for_controller(check)
         writer.add_topic(REPLAYED, "trackvib_msgs/msg/CoilCurrent", [qos_record(LOOP_WRITER_QOS)], trial.type_hash())
-        samples = sample_messages(bag, loop.chassis, loop.powertrain)
-        for stamp, *imus in track(samples, "asking the controller", loop.samples, console=console, transient=True):
+        samples = sample_messages(recording.path, topics["chassis/imu"], topics["powertrain/imu"])
+        for stamp, *imus in track(samples, "asking the controller", len(stamps), console=console, transient=True):
             answer = trial.answer(stamp, *imus)
             if answer is None:
                 check()
@@ -73,9 +80,18 @@ def _replay(bag, loop, law, writer, folder, console):
     return replayed
 
 
+def _answers(recording):
+    """Return the recorded currents (2,) [A] by sample stamp [ns], the first to each."""
+    currents = {}
+    if recording.answers is not None:
+        for stamp, current in zip(*(column.tolist() for column in recording.answers), strict=True):
+            currents.setdefault(stamp, tuple(current))
+    return currents
+
+
 @contextmanager
 def _controller(law, rate, folder):
-    """Run a stock controller, unless the user does; gives what raises `RunError` if it has ended."""
+    """Run a stock controller, unless the user does; gives what raises `CommandError` if it has ended."""
     if law is None:
         yield lambda: None
         return
@@ -87,7 +103,7 @@ def _controller(law, rate, folder):
 
     def check():
         if processes.ended():
-            raise RunError(f"'controller' ended; it said:\n{processes.last_words('controller')}")
+            raise CommandError(f"'controller' ended; it said:\n{processes.last_words('controller')}")
 
     try:
         yield check

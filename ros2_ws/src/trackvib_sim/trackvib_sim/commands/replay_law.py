@@ -1,25 +1,19 @@
 """`trackvib replay --law`: a recorded drive once more in process, on the same road, under another law."""
 
 import json
-from pathlib import Path
 
+import numpy as np
 from mr_mount_controller.laws import find_law
 from rich.progress import track
 from rich.table import Table
 
+from ..analysis.bag_analysis import analyse
 from ..analysis.replay_pictures import drives_picture
-from ..analysis.settling import SHORTEST_SETTLING, settling_time
-from ..analysis.summary import (
-    AXES,
-    SENSORS,
-    SHORTEST_MEASURING,
-    Prepared,
-    TooShort,
-)
-from ..analysis.vibration import band, band_limited, rms
+from ..analysis.summary import AXES, SENSORS, TooShort, prepare, summarise
 from ..bags.copying import copy_bag
-from ..bags.replaying import read_recorded_drive
-from ..bags.versions import versions
+from ..bags.provenance import PARAMETERS_OF, parameters_with, write_parameters, write_versions
+from ..bags.reading import read_recording
+from ..bags.recording import Answers
 from ..bags.writing import BagWriter
 from ..nodes import topics
 from ..nodes.rerun_bag import RerunBag
@@ -27,8 +21,7 @@ from ..nodes.simulator_parameters import prepare_again
 from ..simulation.closed_loop import periods_under_law
 from ..simulation.settings import NANO
 from ..simulation.simulation import RunFailed
-from ..vehicle.mount_audit import mount_account
-from .closed_loop_run import make_folder
+from .result_folder import all_or_nothing
 
 
 def perform(bag, law, out, console):
@@ -36,46 +29,58 @@ def perform(bag, law, out, console):
 
     Raises
     ------
-    BagError, ValueError, RunError
+    BagError, ValueError, CommandError
         The bag does not tell enough or is too short, or the folder cannot be made.
     """
-    recording = read_recorded_drive(bag)
-    simulation, values = prepare_again(recording)
-    settle, rate = _settling(values, recording.provenance), simulation.settings.rates.control
-    _prepared(recording.chassis, recording.powertrain, rate, settle)  # too short a drive is refused before anything
-    chosen = find_law(law)(1.0 / rate)
-    folder = make_folder(out)
-    ended = _drive(bag, recording, simulation, chosen, law, folder / "bag", console)
-    rerun = read_recorded_drive(folder / "bag")
-
-    labels = (f"recorded ({_recorded_law(recording.provenance)})", f"replayed ({law})")
-    last = rerun.chassis.stamp[-1]
-    try:
-        drives = {
-            label: _prepared(_until(drive.chassis, last), _until(drive.powertrain, last), rate, settle)
-            for label, drive in zip(labels, (recording, rerun), strict=True)
-        }
-    except TooShort as error:
-        raise TooShort(f"{ended}; {error}") from None
-    currents = {label: _currents(drive, last) for label, drive in zip(labels, (recording, rerun), strict=True)}
-    drives_picture(drives, currents, f"{Path(bag).name} again under {law}, {last / NANO:g} s", folder / "replay.png")
-    how = {"bag": str(bag), "law": law, "duration_s": last / NANO, "ended": ended}
-    summary = {"replay": how, **_levels(drives, settle), "mounts_J": mount_account(simulation.state.audit)._asdict()}
-    (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+    recording = read_recording(bag)
+    recording.require("mounts", "road", "vehicle")
+    analyse(recording)  # too short a drive is refused before anything is done
+    simulation, _ = prepare_again(recording)
+    chosen = find_law(law)(1.0 / simulation.settings.rates.control)
+    with all_or_nothing(out) as folder:
+        ended = _drive(recording, simulation, chosen, law, folder / "bag", console)
+        labels, summary = _compare(recording, read_recording(folder / "bag"), law, ended, folder)
     console.print(_table(summary, labels))
     console.print(f"{ended}; left in {folder}: bag/, summary.json, replay.png", soft_wrap=True)
 
 
-def _drive(bag, recording, simulation, chosen, law, path, console):
+def _compare(recording, rerun, law, ended, folder):
+    """Write summary and picture of both drives; returns what they are called, and the summary."""
+    last = int(rerun.chassis.stamp[-1])
+    recorded_law = parameters_with(recording.provenance, "law")[1].get("law", "law not told")
+    labels = (f"recorded ({recorded_law})", f"replayed ({law})")
+    drives = {label: _until(drive, last) for label, drive in zip(labels, (recording, rerun), strict=True)}
+    try:
+        analyses = [analyse(drive) for drive in drives.values()]
+    except TooShort as error:
+        raise TooShort(f"{ended}; {error}") from None
+    drives_picture(
+        {label: prepare(drive, analyses[0].settle) for label, drive in drives.items()},
+        {label: _currents(drive) for label, drive in drives.items()},
+        f"{recording.path.name} again under {law}, {last / NANO:g} s",
+        folder / "replay.png",
+    )
+    how = {"bag": str(recording.path), "law": law, "duration_s": last / NANO, "ended": ended}
+    summary = {"replay": how, **_levels(*map(summarise, analyses)), "mounts_J": analyses[1].mount_energy}
+    (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+    return labels, summary
+
+
+def _drive(recording, simulation, chosen, law, path, console):
     """Run to the recorded end, or as far as road and vehicle go, into a bag; returns how it ended."""
     periods = int(recording.chassis.stamp[-1]) // simulation.settings.rates.period
     writer = BagWriter(path)
     ended, exchange = "driven to the recorded end", None
     try:
         constant = (topics.ROAD_PROFILE, topics.VEHICLE_DESCRIPTION)
-        known = copy_bag(bag, writer, lambda topic: topic.endswith(constant))
-        _describe(writer, recording.provenance, bag, law, chosen)
-        rerun = RerunBag(writer, known, recording.chassis.topic.removesuffix(topics.CHASSIS_IMU), simulation)
+        controller, _ = parameters_with(recording.provenance, "law")
+        other = ("versions.yaml", f"parameters{controller}.yaml")
+        known = copy_bag(
+            recording.path, writer, lambda topic: topic.endswith(constant), lambda name: name not in other
+        )
+        _describe(writer, recording, controller, law, chosen)
+        space = recording.topics[topics.CHASSIS_IMU].removesuffix(topics.CHASSIS_IMU)
+        rerun = RerunBag(writer, known, space, simulation)
         rerun.begin()
         loop = periods_under_law(simulation, chosen)
         for _ in track(range(periods), f"driving under {law}", console=console, transient=True):
@@ -96,63 +101,49 @@ def _drive(bag, recording, simulation, chosen, law, path, console):
     return ended
 
 
-def _describe(writer, provenance, bag, law, chosen):
-    """Write down what made the rerun: as recorded, but for the software and the law."""
-    writer.add_provenance("versions", versions())
-    writer.add_provenance("replay", {"bag": bag, "law": law})
-    for name, told in provenance.items():
-        if "law" in told and name != "replay":
-            told = {"law": law, **{parameter.name: getattr(chosen, parameter.name) for parameter in chosen.parameters}}
-        if name not in ("versions", "replay"):
+def _describe(writer, recording, controller, law, chosen):
+    """Write down what made the rerun: as recorded, but for the software and the law of a node by its full name."""
+    write_versions(writer)
+    writer.add_provenance("replay", {"bag": recording.path, "law": law})
+    if controller:
+        own = {parameter.name: getattr(chosen, parameter.name) for parameter in chosen.parameters}
+        write_parameters(writer, controller, {"law": law, **own})
+    replaced = ("versions", "replay", f"{PARAMETERS_OF}{controller}")
+    for name, told in recording.provenance.items():
+        if name not in replaced:
             writer.add_provenance(name, told)
 
 
-def _settling(values, provenance):
-    """How long the recorded run settled [s], on the road that its bag tells of."""
-    told = next((told for told in provenance.values() if "level_until" in told and "fade" in told), None)
-    if told is None:
-        return SHORTEST_SETTLING
-    return settling_time(values["speed"], float(told["level_until"]) + float(told["fade"]))
+def _until(recording, stamp):
+    """The part of a recording up to a stamp [ns]."""
+
+    def cut(columns):
+        return columns and type(columns)(*(each[: np.searchsorted(columns[0], stamp, "right")] for each in columns))
+
+    parts = ("chassis", "powertrain", "mounts", "odometry")
+    answers = recording.answers  # whose order is that of arrival
+    if answers is not None:
+        kept = answers.sample_stamp <= stamp
+        answers = Answers(*(each[kept] for each in answers))
+    return recording._replace(answers=answers, **{part: cut(getattr(recording, part)) for part in parts})
 
 
-def _recorded_law(provenance):
-    laws = [told["law"] for name, told in provenance.items() if "law" in told and name != "replay"]
-    return laws[0] if laws else "law not told"
+def _currents(recording):
+    """Times [s] and demanded currents (k, 2) [A] of all answers."""
+    if recording.answers is None:
+        return np.empty(0), np.empty((0, 2))
+    return recording.answers.sample_stamp / NANO, recording.answers.current
 
 
-def _prepared(chassis, powertrain, rate, settle):
-    """Return two `bags.replaying.Stream`s ready to be measured; raises `TooShort`."""
-    time = chassis.stamp / NANO
-    if time[-1] < settle + SHORTEST_MEASURING:
-        raise TooShort(f"the drive is {time[-1]:g} s long, RMS values need {settle + SHORTEST_MEASURING:g} s")
-    raw = dict(zip(SENSORS, (chassis.specific_force, powertrain.specific_force), strict=True))
-    limited = {sensor: band_limited(values, rate) for sensor, values in raw.items()}
-    return Prepared(time, raw, limited, rate, time > settle)
-
-
-def _until(stream, stamp):
-    """The part of a stream up to a stamp [ns]."""
-    kept = stream.stamp <= stamp
-    return stream._replace(stamp=stream.stamp[kept], values=stream.values[kept])
-
-
-def _currents(drive, last):
-    """Times [s] and demanded currents (k, 2) [A] of all answers up to a stamp [ns]."""
-    kept = drive.answered <= last
-    return drive.answered[kept] / NANO, drive.current[kept]
-
-
-def _levels(drives, settle):
-    recorded, replayed = (
-        {sensor: dict(zip(AXES, rms(drive.limited[sensor][drive.settled]).tolist(), strict=True)) for sensor in SENSORS}
-        for drive in drives.values()
-    )
+def _levels(recorded, replayed):
+    rms = {"recorded": recorded["rms_mps2"], "replayed": replayed["rms_mps2"]}
     return {
-        "band_hz": list(band(next(iter(drives.values())).rate)),
-        "settled_after_s": settle,
-        "rms_mps2": {"recorded": recorded, "replayed": replayed},
+        **{name: recorded[name] for name in ("band_hz", "settled_after_s")},
+        "rms_mps2": rms,
         "change_percent": {
-            sensor: {axis: 100.0 * (replayed[sensor][axis] / recorded[sensor][axis] - 1.0) for axis in AXES}
+            sensor: {
+                axis: 100.0 * (rms["replayed"][sensor][axis] / rms["recorded"][sensor][axis] - 1.0) for axis in AXES
+            }
             for sensor in SENSORS
         },
     }

@@ -6,13 +6,16 @@ from typing import NamedTuple
 import numpy as np
 from rich.progress import track
 
-from ..bags.replaying import read_recorded_drive
+from ..analysis.bag_numbers import SIDES
+from ..analysis.summary import AXES
+from ..bags.reading import COLUMNS, read_recording
 from ..bags.versions import versions
 from ..nodes.simulator_parameters import prepare_again
 from ..simulation.recorded_currents import NotTold, currents_in_force
 from ..simulation.settings import NANO
 from ..simulation.simulation import CHASSIS, POWERTRAIN, RunFailed
 
+_PLACES = {2: SIDES, 3: AXES}  # along each dimension of a column, by its length
 _TAIL = NANO  # ns at the end of a bag in which its topics need not end together
 
 
@@ -47,65 +50,78 @@ def verify(bag, console):
     ValueError
         It does not tell enough; the message says what is missing.
     """
-    recording = read_recorded_drive(bag)
+    recording = read_recording(bag)
+    recording.require("mounts", "road", "vehicle")
     simulation, values = prepare_again(recording)
     if values["pace"] != "lockstep":
         raise NotVerifiable("its run followed the wall clock (pace is 'realtime'), so it depends on the machine")
     # the mounts first: a wrong current is seen there by its name
-    streams = (recording.mounts, recording.chassis, recording.powertrain)
+    mounts, chassis, powertrain = streams = (
+        _Stream(recording, "mount_state", recording.mounts),
+        _Stream(recording, "chassis/imu", recording.chassis),
+        _Stream(recording, "powertrain/imu", recording.powertrain),
+    )
     rates, last = simulation.settings.rates, int(max(stream.stamp[-1] for stream in streams))
+    answered = 0 if recording.answers is None else recording.answers.sample_stamp.max()
     for stream in streams:
         odd = stream.stamp[stream.stamp % rates.period != 0]
         if odd.size:
             raise NotVerifiable(f"{stream.topic} has the stamp {odd[0]} ns, no multiple of the period")
     currents = currents_in_force(simulation, recording, values["on_silence"])
-    compared = [0, 0, 0]
     other = _other_versions(recording.provenance)
     for _ in track(range(last // rates.period), "driving again", console=console, transient=True):
         try:
             demanded = next(currents)
         except NotTold as gap:
-            if simulation.time > recording.answered.max(initial=0) and last - simulation.time < _TAIL:
+            if simulation.time > answered and last - simulation.time < _TAIL:
                 break
-            raise NotVerifiable(_after(simulation, compared, str(gap))) from None
+            raise NotVerifiable(_after(simulation, streams, str(gap))) from None
         if not simulation.road_is_enough():
-            raise NotVerifiable(_after(simulation, compared, f"no road is recorded at {simulation.distance:.1f} m"))
+            raise NotVerifiable(_after(simulation, streams, f"no road is recorded at {simulation.distance:.1f} m"))
         try:
             simulation.advance(demanded)
         except RunFailed as failure:
             return False, f"different: replayed, {failure}; the recorded run goes on{other}"
-        difference = _compare(simulation, streams, compared)
+        time, sample = simulation.time, simulation.sample
+        difference = (
+            mounts.difference(time, sample.mounts)
+            or chassis.difference(time, (sample.specific_force[CHASSIS], sample.rate[CHASSIS]))
+            or powertrain.difference(time, (sample.specific_force[POWERTRAIN], sample.rate[POWERTRAIN]))
+        )
         if difference:
             return False, f"different: {difference}{other}"
-    count = ", ".join(f"{n} of {stream.topic}" for n, stream in zip(compared, streams, strict=True))
+    count = ", ".join(f"{stream.compared} of {stream.topic}" for stream in streams)
     cut = "" if recording.complete else "; the bag is cut short, this is what it holds"
     return True, f"identical to the last bit: {count}, up to t = {simulation.time / NANO:.3f} s{cut}{other}"
 
 
-def _compare(simulation, streams, compared):
-    """Set the sample at hand beside the recorded one; returns the first `Difference`, and counts what was compared."""
-    sample = simulation.sample
-    rows = (
-        np.concatenate([np.ravel(part) for part in sample.mounts]),
-        np.concatenate((sample.specific_force[CHASSIS], sample.rate[CHASSIS])),
-        np.concatenate((sample.specific_force[POWERTRAIN], sample.rate[POWERTRAIN])),
-    )
-    for number, (stream, row) in enumerate(zip(streams, rows, strict=True)):
-        place = compared[number]
-        if place == len(stream.stamp) or stream.stamp[place] != simulation.time:
-            continue  # not in the bag
-        compared[number] += 1
-        recorded = stream.values[place]
-        if recorded.tobytes() != row.tobytes():
-            bits = recorded.view(np.uint64) != row.view(np.uint64)
-            column = int(np.argmax(bits))
-            channel = stream.channels[column]
-            return Difference(simulation.time, stream.topic, channel, float(recorded[column]), float(row[column]))
-    return None
+class _Stream:
+    """A recorded topic beside which samples are set, one after the other."""
+
+    def __init__(self, recording, end, columns):
+        """Take the end of the topic's name and its columns, the stamps first."""
+        self.topic, self.compared = recording.topics[end], 0
+        self.stamp, *self._columns = map(np.asarray, columns)
+        self._fields = [field for field, _ in list(COLUMNS[end].fields.values())[1:]]
+
+    def difference(self, time, values):
+        """Set the sample of a time [ns] beside the recorded one; returns the first `Difference` of its bits, if any."""
+        place = self.compared
+        if place == len(self.stamp) or self.stamp[place] != time:
+            return None  # not in the bag
+        self.compared += 1
+        for field, column, replayed in zip(self._fields, self._columns, values, strict=True):
+            recorded = column[place]
+            if recorded.tobytes() != replayed.tobytes():
+                where = tuple(np.argwhere(recorded.view(np.uint64) != replayed.view(np.uint64))[0])
+                names = (_PLACES[size][index] for size, index in zip(replayed.shape, where, strict=True))
+                channel = ".".join((field, *names))
+                return Difference(time, self.topic, channel, float(recorded[where]), float(replayed[where]))
+        return None
 
 
-def _after(simulation, compared, reason):
-    if not any(compared):
+def _after(simulation, streams, reason):
+    if not any(stream.compared for stream in streams):
         return reason
     return f"{reason}; up to t = {simulation.time / NANO:.3f} s it is identical to the last bit"
 

@@ -20,19 +20,6 @@ _ANSWER_TIMEOUT = 1.0  # s of wall time after which the controller is silent
 _TICK = 0.1  # s
 
 
-def read_answers(messages):
-    """Return the currents (2,) [A] in serialised `CoilCurrent` messages by sample stamp [ns], the first of each."""
-    reader, currents = _answer_reader(), {}
-    for data in messages:
-        seconds, nanoseconds, *current = reader.read(data)
-        currents.setdefault(seconds * NANO + nanoseconds, tuple(current))
-    return currents
-
-
-def _answer_reader():
-    return MessageReader(CoilCurrent, {"sample_stamp": "iI", "current": "2d"})
-
-
 class Answer(NamedTuple):
     """A controller's answer to a sample."""
 
@@ -53,7 +40,7 @@ class ControllerTrial:
         )
         self._executor = EventsExecutor()
         self._executor.add_node(self._node)
-        self._reader = _answer_reader()
+        self._reader = MessageReader(CoilCurrent, {"sample_stamp": "iI", "current": "2d"})
         self._exchange = Exchange(0.0, (-np.inf, np.inf))
         self._latest = None
         self._heard, self._given_up = -1, None  # latest sample answered, now and when silence fell, ns

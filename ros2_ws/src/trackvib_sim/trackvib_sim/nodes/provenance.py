@@ -3,8 +3,6 @@
 from rclpy.parameter import parameter_value_to_python
 from rclpy.parameter_client import AsyncParameterClient
 
-from ..bags.metadata import to_yaml
-
 _TIMEOUT = 2.0  # s, for a node to tell its parameters
 _UNKNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's word for it
 
@@ -29,13 +27,6 @@ def parameters_of(node, name):
     names = sorted(names.result.names)
     values = _result(node, client.get_parameters(names))
     return dict(zip(names, map(parameter_value_to_python, values.values), strict=True)) if values else {}
-
-
-def parameter_file(name, parameters):
-    """Return the text of a file that `--params-file` takes to start a node with the same parameters."""
-    # of an empty list nobody can tell which type of list it is, ROS 2 neither
-    told = {key: list(value) if hasattr(value, "tolist") else value for key, value in parameters.items()}
-    return to_yaml({name: {"ros__parameters": {key: value for key, value in told.items() if value not in ([], None)}}})
 
 
 def _result(node, future):

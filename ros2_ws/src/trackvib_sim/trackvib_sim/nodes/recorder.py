@@ -11,14 +11,13 @@ from mr_mount_controller.parameters import Parameter
 from rclpy.clock import Clock, ClockType
 from rclpy.serialization import deserialize_message
 
-from ..bags.metadata import to_yaml
+from ..bags.provenance import write_parameters, write_versions
 from ..bags.timekeeping import Timekeeping
-from ..bags.versions import versions
 from ..bags.writing import COMPRESSIONS, BagError, BagWriter
 from ..simulation.settings import NANO
 from . import topics
 from .messages import message_type
-from .provenance import is_known, parameter_file, parameters_of, publishing_nodes
+from .provenance import is_known, parameters_of, publishing_nodes
 from .topic_choice import TopicChoice, subscribe
 
 DEFAULT_TOPICS = [
@@ -132,8 +131,7 @@ class RecorderNode(LoopNode):
             raise NodeError(str(error)) from None
         for topic in self._topics.values():
             self._announce(topic)
-        self._bag.add_provenance("versions", versions())
-        self._bag.add_attachment("versions.yaml", to_yaml(versions()))
+        write_versions(self._bag)
 
     def _complete(self):
         bag, self._bag = self._bag, None
@@ -167,9 +165,7 @@ class RecorderNode(LoopNode):
             parameters = parameters_of(self, name)
             if parameters is None:
                 self.get_logger().warning(f"{name} does not tell its parameters; the bag goes without them")
-            else:
-                self._bag.add_attachment(f"parameters{name}.yaml", parameter_file(name, parameters))
-            self._bag.add_provenance(f"parameters of {name}", {"": "not told"} if parameters is None else parameters)
+            write_parameters(self._bag, name, parameters)
 
     def _take_up(self, names):
         """Subscribe to topics that are new; returns their names."""

@@ -4,6 +4,7 @@ from contextlib import suppress
 
 from mr_mount_controller.parameters import Parameter, ParameterError
 
+from ..bags.provenance import parameters_with
 from ..installed import default_vehicle_file
 from ..simulation.settings import Rates, RunSettings
 from ..simulation.simulation import Simulation
@@ -81,7 +82,7 @@ def simulation_of(vehicle, values):
 
 
 def prepare_again(recording):
-    """Return the `Simulation` of a `bags.replaying.RecordedDrive` with all its road, and the recorded parameter values.
+    """Return the `Simulation` of a `bags.recording.Recording` with all its road, and the recorded parameter values.
 
     Raises
     ------
@@ -90,8 +91,8 @@ def prepare_again(recording):
     VehicleFileError
         The recorded vehicle cannot be used.
     """
-    told = next((values for values in recording.provenance.values() if "physics_rate" in values), None)
-    if told is None:
+    _, told = parameters_with(recording.provenance, "physics_rate")
+    if not told:
         raise ParameterError("the bag does not tell the parameters of its simulator")
     values = {parameter.name: _value(parameter, told) for parameter in PARAMETERS}
     simulation = simulation_of(parse_vehicle(recording.vehicle, "vehicle_description"), values)

@@ -1,6 +1,5 @@
 """Which current was in force in which period of a recorded run in lock-step."""
 
-from collections import defaultdict
 from copy import deepcopy
 
 import numpy as np
@@ -14,7 +13,9 @@ class NotTold(ValueError):
 
 
 def currents_in_force(simulation, recording, on_silence):
-    """Yield the demanded currents (2,) [A] in force in each period of a `bags.replaying.RecordedDrive`.
+    """Yield the demanded current (2,) [A] in force in each period of a `bags.recording.Recording`.
+
+    Before the next one is asked for, the simulation must have done the period.
 
     A period runs on the answer to the sample before it, the first one on the passive current. Where the simulator
     counted silence the answer may have come too late, or never, and `on_silence` decided; and of two answers the first
@@ -23,8 +24,9 @@ def currents_in_force(simulation, recording, on_silence):
     Parameters
     ----------
     simulation : Simulation
-        Not yet advanced.
-    recording : bags.replaying.RecordedDrive
+        Not yet advanced; its coils show what currents have been in force.
+    recording : bags.recording.Recording
+        With mount states.
     on_silence : str
         "hold", "passive" or "stop".
 
@@ -33,78 +35,80 @@ def currents_in_force(simulation, recording, on_silence):
     NotTold
         When a current is asked for that the recording should tell but does not.
     """
-    answers = defaultdict(list)  # to each sample, in the order of arrival
-    for stamp, current in zip(recording.answered.tolist(), recording.current, strict=True):
-        if np.isfinite(current).all() and not any(np.array_equal(current, known) for known in answers[stamp]):
-            answers[stamp].append(current)
-    period, coils = simulation.settings.rates.period, _Coils(simulation, recording.mounts)
+    answers, told = _RecordedAnswers(recording.answers), recording.told
     passive = held = np.full(2, simulation.settings.passive_current)
-    stamp = 0
     while True:
-        coils.force(held)
         yield held
-        stamp += period
-        candidates = answers[stamp].copy()
-        if _silence_at(stamp, recording.told):
-            candidates.append(passive if on_silence == "passive" else held)
-        if not candidates or not (answers[stamp] or _all_recorded(stamp, recording)):
+        stamp = simulation.time
+        candidates = answers.to(stamp)
+        if not candidates and not _all_recorded(stamp, answers, told):
             raise NotTold(
                 f"no answer to the sample at t = {stamp / NANO:.3f} s is recorded, but the simulator may have had one"
             )
-        held = candidates[0] if len(candidates) == 1 else coils.likeliest(candidates)
+        if _silence_at(stamp, told):
+            candidates.append(passive if on_silence == "passive" else held)
+        if not candidates:
+            raise NotTold(f"no answer to the sample at t = {stamp / NANO:.3f} s is recorded, and no silence either")
+        held = candidates[0] if len(candidates) == 1 else _likeliest(simulation, recording.mounts, candidates)
+
+
+class _RecordedAnswers:
+    """Answers by the sample to which they were given."""
+
+    def __init__(self, answers):
+        if answers is None:
+            self._stamps, self._current = np.empty(0, np.int64), np.empty((0, 2))
+            return
+        order = np.argsort(answers.sample_stamp, kind="stable")  # of one sample, in the order of arrival
+        self._stamps, self._current = answers.sample_stamp[order], answers.current[order]
+
+    def to(self, stamp):
+        """Return the different currents (2,) [A] that were given to the sample of a stamp [ns], in their order."""
+        different = []
+        for current in self._current[slice(*np.searchsorted(self._stamps, (stamp, stamp + 1)))]:
+            if np.isfinite(current).all() and not any(np.array_equal(current, known) for known in different):
+                different.append(current)
+        return different
+
+    def count(self, stamp):
+        """Return how many there are to samples up to a stamp [ns]."""
+        return np.searchsorted(self._stamps, stamp, "right")
 
 
 def _silence_at(stamp, told):
     """Whether the simulator counted silent periods between what it told before and after a stamp [ns]."""
-    times, counts = told[:, 0], told[:, 1]
-    before, after = np.searchsorted(times, stamp, "left"), np.searchsorted(times, stamp, "right")
-    if not len(counts):
+    if not told.stamp.size:
         return False
+    before, after = np.searchsorted(told.stamp, stamp, "left"), np.searchsorted(told.stamp, stamp, "right")
+    counts = told.silent_periods
     return counts[min(after, len(counts) - 1)] > (counts[before - 1] if before else 0)
 
 
-def _all_recorded(stamp, recording):
+def _all_recorded(stamp, answers, told):
     """Whether the simulator, when it told next after a stamp [ns], had no more answers than are recorded up to then.
 
     The last answers of a controller that is killed need not reach everybody.
     """
-    after = np.searchsorted(recording.told[:, 0], stamp, "right")
-    time, _, had = recording.told[min(after, len(recording.told) - 1)]
-    return had <= np.count_nonzero(recording.answered <= time)
+    if not told.stamp.size:
+        return False
+    next_time = min(np.searchsorted(told.stamp, stamp, "right"), len(told.stamp) - 1)
+    return told.answers[next_time] <= answers.count(told.stamp[next_time])
 
 
-class _Coils:
-    """Driver and coils alone, on the currents that were in force, to be set beside what `mount_state` says of them."""
+def _likeliest(simulation, mounts, candidates):
+    """Return the one of several currents for the next period under which the coils come next to the record."""
+    coil, rates = simulation.system.coil, simulation.settings.rates
+    # a demand is seen once the driver's delay is over
+    periods = 1 + coil.delay // rates.steps
+    stamp = simulation.time + periods * rates.period
+    row = np.searchsorted(mounts.stamp, stamp)
+    if row == len(mounts.stamp) or mounts.stamp[row] != stamp:
+        return candidates[0]
 
-    def __init__(self, simulation, mounts):
-        self._coil, self._steps = simulation.system.coil, simulation.settings.rates.steps
-        self._period, self._mounts = simulation.settings.rates.period, mounts
-        self._state = deepcopy(simulation.state.coils)
-        self._waiting = []  # currents in force, a period each, that the coils have not followed yet
-        self._periods = 0
+    def distance(current):
+        coils = deepcopy(simulation.state.coils)
+        for _ in range(periods * rates.steps):
+            drive_coils(coil, current, coils)
+        return np.abs(coils.current - mounts.current[row]).sum()
 
-    def force(self, current):
-        """Put a current (2,) [A] in force for the next period."""
-        self._waiting.append(current)
-        self._periods += 1
-
-    def likeliest(self, candidates):
-        """Return the one of several currents for the next period under which the coils come next to the record."""
-        for current in self._waiting:
-            self._drive(self._state, current, 1)
-        self._waiting.clear()
-        # a demand is seen once the driver's delay is over
-        periods = 1 + self._coil.delay // self._steps
-        row = np.flatnonzero(self._mounts.stamp == (self._periods + periods) * self._period)
-        if not row.size:
-            return candidates[0]
-        return min(candidates, key=lambda current: self._distance(current, periods, self._mounts.values[row[0], :2]))
-
-    def _distance(self, current, periods, recorded):
-        state = deepcopy(self._state)
-        self._drive(state, current, periods)
-        return float(np.abs(state.current - recorded).sum())
-
-    def _drive(self, state, current, periods):
-        for _ in range(periods * self._steps):
-            drive_coils(self._coil, current, state)
+    return min(candidates, key=distance)

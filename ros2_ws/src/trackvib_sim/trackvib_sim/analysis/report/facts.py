@@ -3,26 +3,20 @@
 from os.path import commonpath
 from pathlib import PurePath
 
+from ...bags.provenance import parameters, parameters_with
+
 NOT_TOLD = "not told"
-
-
-def parameters(provenance):
-    """Return the parameters in a bag's metadata records: last part of the node's name -> dict of text."""
-    return {name.rpartition("/")[2]: values for name, values in provenance.items() if name.startswith("parameters of ")}
 
 
 def facts(excerpt):
     """Return what was run as pairs of words."""
-    told, found = parameters(excerpt.provenance), excerpt.analysis
-
-    def of(node, name):
-        return told.get(node, {}).get(name, NOT_TOLD)
-
+    found, road = excerpt.analysis, parameters_with(excerpt.provenance, "road_class")[1]
+    law, simulator = (parameters_with(excerpt.provenance, name)[1] for name in ("law", "engine_speed"))
     return [
-        ("road", f"class {of('road_excitation', 'road_class')}, seed {of('road_excitation', 'seed')}"),
-        ("control law", of("controller", "law")),
+        ("road", f"class {road.get('road_class', NOT_TOLD)}, seed {road.get('seed', NOT_TOLD)}"),
+        ("control law", law.get("law", NOT_TOLD)),
         ("speed", f"{found.speed:.3g} m/s, standard deviation {found.speed_deviation:.2g} m/s; "
-                  f"wanted {of('simulator', 'speed')} m/s"),
+                  f"wanted {simulator.get('speed', NOT_TOLD)} m/s"),
         ("engine", f"{found.engine_speed:.5g} r/min"),
         ("length", f"{found.duration:.6g} s; {found.measured:.6g} s count, after {found.settle:.3g} s of settling"),
         ("sensors", f"{found.rate:.6g} Hz; RMS values from {found.band[0]:g} to {found.band[1]:g} Hz"),
@@ -32,8 +26,7 @@ def facts(excerpt):
 
 def headline(excerpt):
     """Return the run in one line."""
-    told = parameters(excerpt.provenance)
-    road, law = told.get("road_excitation", {}), told.get("controller", {})
+    road, law = (parameters_with(excerpt.provenance, name)[1] for name in ("road_class", "law"))
     words = [f"class {road['road_class']}"] if "road_class" in road else []
     words += [f"{excerpt.analysis.speed:.3g} m/s"]
     words += [f"law {law['law']}"] if "law" in law else []
@@ -59,7 +52,10 @@ def names(paths):
 
 def differing(excerpts):
     """Return rows (node, parameter, value in each bag) of the parameters that are not the same everywhere."""
-    told = [parameters(excerpt.provenance) for excerpt in excerpts]
+    told = [
+        {node.rpartition("/")[2]: values for node, values in parameters(excerpt.provenance).items()}
+        for excerpt in excerpts
+    ]
     keys = sorted({(node, name) for each in told for node, values in each.items() for name in values})
     rows = [(node, name, *(each.get(node, {}).get(name, NOT_TOLD) for each in told)) for node, name in keys]
     return [row for row in rows if len(set(row[2:])) > 1]

@@ -1,0 +1,43 @@
+"""What made a bag, as it stands in the bag: as metadata records for programs, as attachments for people."""
+
+from .metadata import to_yaml
+from .versions import versions
+
+PARAMETERS_OF = "parameters of "  # and a node's full name
+
+
+def write_versions(bag):
+    """Write down in a `BagWriter` which software is at work."""
+    bag.add_provenance("versions", versions())
+    bag.add_attachment("versions.yaml", to_yaml(versions()))
+
+
+def write_parameters(bag, node, parameters):
+    """Write down in a `BagWriter` the parameters of a node by its full name: values by name, None if it tells none."""
+    if parameters is not None:
+        bag.add_attachment(f"parameters{node}.yaml", _parameter_file(node, parameters))
+    bag.add_provenance(f"{PARAMETERS_OF}{node}", {"": "not told"} if parameters is None else parameters)
+
+
+def parameters(provenance):
+    """Return what a bag's metadata records tell of nodes: full name -> parameters, as text."""
+    return {
+        record.removeprefix(PARAMETERS_OF): told
+        for record, told in provenance.items()
+        if record.startswith(PARAMETERS_OF)
+    }
+
+
+def parameters_with(provenance, name):
+    """Return name and parameters, as text, of the node that has a parameter of that name; "" and {} if none is told.
+
+    Nodes are found by what they have because they can be named as one likes.
+    """
+    return next(((node, told) for node, told in parameters(provenance).items() if name in told), ("", {}))
+
+
+def _parameter_file(node, parameters):
+    """Return the text of a file that `--params-file` takes to start a node with the same parameters."""
+    # of an empty list nobody can tell which type of list it is, ROS 2 neither
+    told = {key: list(value) if hasattr(value, "tolist") else value for key, value in parameters.items()}
+    return to_yaml({node: {"ros__parameters": {key: value for key, value in told.items() if value not in ([], None)}}})

@@ -1,0 +1,173 @@
+"""Reads a run out of a bag: columns of numbers, an hour of them in a few seconds and bounded memory.
+
+Nothing is done message by message in Python but for the rare topics.
+"""
+
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+from mcap.exceptions import McapError
+from rosbags.serde import SerdeError
+from zstandard import ZstdError
+
+from ..simulation.settings import NANO
+from .cdr_layout import type_store
+from .columns import Columns, Topic
+from .files import bag_files
+from .mcap_chunks import PartedFile, take_apart
+from .recording import Answers, Inertial, Mounts, Odometry, Recording, Told
+from .writing import BagError
+
+_SENSOR = Columns("sensor_msgs/msg/Imu", Inertial, {
+    "stamp": "header.stamp",
+    "specific_force": ("linear_acceleration", (3,)),
+    "rate": ("angular_velocity", (3,)),
+})  # fmt: skip
+_BOTH = {name: (name, (2,)) for name in ("current", "stiffness", "damping")}
+_VECTORS = {name: (name, (2, 3)) for name in ("deflection", "velocity", "force")}
+COLUMNS = {
+    "chassis/imu": _SENSOR,
+    "powertrain/imu": _SENSOR,
+    "mount_state": Columns("trackvib_msgs/msg/MountState", Mounts, {
+        "stamp": "header.stamp", **_BOTH, **_VECTORS, "dissipated_power": ("dissipated_power", (2,)),
+    }),
+    "coil_current": Columns("trackvib_msgs/msg/CoilCurrent", Answers, {
+        "sample_stamp": "sample_stamp", "current": ("current", (2,)),
+    }),
+    "odometry": Columns("nav_msgs/msg/Odometry", Odometry, {
+        "stamp": "header.stamp", "position": ("pose.pose.position", (3,)), "speed": ("twist.twist.linear.x", ()),
+    }),
+}  # fmt: skip
+_NEEDED = ("chassis/imu", "powertrain/imu")
+_RARE = {  # read message by message
+    "diagnostics": "diagnostic_msgs/msg/DiagnosticArray",
+    "vehicle_description": "std_msgs/msg/String",
+    "road_profile": "trackvib_msgs/msg/RoadProfile",
+}
+_TYPES = {end: columns.type_name for end, columns in COLUMNS.items()} | _RARE
+_ANSWERS = ("accepted", "late", "duplicate", "not_finite")  # to samples that were out, among the diagnostics
+# mcap raises plain ValueErrors as well, lz4 RuntimeErrors
+_READ_ERRORS = (OSError, McapError, ZstdError, SerdeError, ValueError, RuntimeError)
+
+
+def read_recording(path, follow=lambda done, total: None):
+    """Return the `Recording` in a bag, a folder with MCAP files or one such file, as far as it goes.
+
+    Topics are found by the ends of their names. Of several that end alike the one beside the sensors counts.
+
+    Parameters
+    ----------
+    path : path
+    follow : callable
+        Is told now and then how many bytes of how many have been read.
+
+    Raises
+    ------
+    BagError
+        The bag cannot be read, holds no Imu messages of one of the sensors, or those of several vehicles.
+    """
+    path, reading = Path(path), _Reading()
+    files = bag_files(path)
+    try:
+        total, done = sum(file.stat().st_size for file in files), 0
+        for file in files:
+            reading.read(file, lambda end, before=done: follow(before + end, total))
+            done += file.stat().st_size
+    except _READ_ERRORS as error:
+        raise BagError(f"bag {str(path)!r} cannot be read: {str(error) or type(error).__name__}") from None
+    follow(total, total)
+    return reading.recording(path)
+
+
+class _Reading:
+    """What has been read of a bag."""
+
+    def __init__(self):
+        self._columns, self._roads, self._vehicles = {}, {}, {}  # by topic
+        self._told, self._diagnostics = [], {}
+        self._provenance, self._counts, self._complete = {}, Counter(), True
+
+    def read(self, file, follow):
+        """Read one file; ids of schemas and channels are its own."""
+        schemas, channels, stores = {}, {}, {}
+        with file.open("rb") as stream:
+            parted = PartedFile(stream)
+            for part in parted.parts():
+                messages = take_apart(part.data, schemas, channels)
+                for channel_id in np.unique(messages.channel).tolist():
+                    channel = channels.get(channel_id)
+                    schema = schemas.get(channel.schema_id) if channel else None
+                    if schema is None:
+                        raise ValueError(f"messages on channel {channel_id}, which nothing announces")
+                    of_channel = messages.channel == channel_id
+                    start, size = messages.start[of_channel], messages.size[of_channel]
+                    self._counts[channel.topic] += len(start)
+                    end = next((end for end in _TYPES if f"/{channel.topic}".endswith(f"/{end}")), None)
+                    if end is not None and schema.name == _TYPES[end]:
+                        if schema.id not in stores:
+                            stores[schema.id] = type_store(schema.name, schema.encoding, schema.data)
+                        self._take(channel.topic, end, stores[schema.id], part.data, start, size)
+                follow(part.end)
+            self._provenance |= parted.metadata
+            self._complete &= parted.complete
+
+    def _take(self, topic, end, store, data, start, size):
+        if end in COLUMNS:
+            if topic not in self._columns:
+                self._columns[topic] = Topic(COLUMNS[end])
+            self._columns[topic].add(store, data, start, size)
+            return
+        for first, length in zip(start.tolist(), size.tolist(), strict=True):
+            message = store.deserialize_cdr(data[first : first + length].data, _TYPES[end])
+            if end == "vehicle_description":
+                self._vehicles[topic] = message.data
+            elif end == "road_profile":
+                patch = message.start, message.spacing, message.left, message.right
+                self._roads.setdefault(topic, []).append(patch)
+            else:
+                self._take_diagnostics(message)
+
+    def _take_diagnostics(self, message):
+        told = {pair.key: pair.value for each in message.status if each.name == "simulator" for pair in each.values}
+        self._diagnostics |= told
+        if "silent_periods" in told:
+            stamp = message.header.stamp
+            answers = sum(int(told.get(outcome, 0)) for outcome in _ANSWERS)
+            self._told.append((stamp.sec * NANO + stamp.nanosec, int(told["silent_periods"]), answers))
+
+    def recording(self, path):
+        """Return it all."""
+        found = {end: [topic for topic in self._columns if f"/{topic}".endswith(f"/{end}")] for end in _NEEDED}
+        missing = [end for end in _NEEDED if not found[end]]
+        if missing:
+            raise BagError(f"bag {str(path)!r} holds no {_SENSOR.type_name} on {', '.join(missing)}")
+        space = found["chassis/imu"][0].removesuffix("chassis/imu")
+        if any(found[end] != [f"{space}{end}"] for end in _NEEDED):
+            several = ", ".join(topic for end in _NEEDED for topic in found[end])
+            raise BagError(f"bag {str(path)!r} holds sensors of several vehicles, must be one: {several}")
+        everything = self._columns | self._roads | self._vehicles
+        topics = {}
+        for end in _TYPES:
+            candidates = [topic for topic in everything if f"/{topic}".endswith(f"/{end}")]
+            if candidates:
+                topics[end] = next((topic for topic in candidates if topic == f"{space}{end}"), candidates[0])
+        columns = {end: self._columns[topics[end]].columns() if end in topics else None for end in COLUMNS}
+        # the first word of the next run may be among the last ones of this
+        told = np.array(sorted(self._told), np.int64).reshape(-1, 3)
+        return Recording(
+            path=path,
+            topics=topics,
+            chassis=columns["chassis/imu"],
+            powertrain=columns["powertrain/imu"],
+            mounts=columns["mount_state"],
+            answers=columns["coil_current"],
+            odometry=columns["odometry"],
+            road=self._roads.get(topics.get("road_profile"), []),
+            vehicle=self._vehicles.get(topics.get("vehicle_description")),
+            told=Told(*told.T),
+            diagnostics=self._diagnostics,
+            provenance=self._provenance,
+            counts=self._counts,
+            complete=self._complete,
+        )

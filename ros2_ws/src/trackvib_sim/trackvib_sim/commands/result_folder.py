@@ -1,0 +1,44 @@
+"""The folder for what a command leaves, and the error in which a command ends."""
+
+import shutil
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+
+class CommandError(RuntimeError):
+    """What a command cannot do; the message says why, in one line or with a node's last words."""
+
+
+def make_folder(path):
+    """Make a new folder; raise `CommandError` if there is one or it cannot be made."""
+    folder = Path(path)
+    try:
+        folder.mkdir(parents=True)
+    except FileExistsError:
+        raise CommandError(f"{str(folder)!r} exists already; nothing is overwritten, choose another --out") from None
+    except OSError as error:
+        raise CommandError(f"{str(folder)!r} cannot be made: {error.strerror}") from None
+    return folder
+
+
+@contextmanager
+def all_or_nothing(path):
+    """Make a new folder, which is taken away again, with the parents made for it, if the block ends in an exception.
+
+    Raises
+    ------
+    CommandError
+        There is one, it cannot be made, or it cannot be written to.
+    """
+    new = [folder for folder in (Path(path), *Path(path).parents) if not folder.exists()]
+    folder = make_folder(path)
+    try:
+        yield folder
+    except BaseException as error:
+        shutil.rmtree(folder, ignore_errors=True)
+        for parent in new[1:]:
+            with suppress(OSError):  # something else lies there by now
+                parent.rmdir()
+        if isinstance(error, OSError):
+            raise CommandError(f"{str(folder)!r} cannot be written: {error.strerror or error}") from None
+        raise
