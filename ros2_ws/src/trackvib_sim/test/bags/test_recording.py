@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from rclpy.serialization import serialize_message
 from rosbags.highlevel import AnyReader
 from std_msgs.msg import String
+from trackvib_sim.bags.raw_messages import RawMessage, raw_records
 from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.bags.writing import BagError, BagWriter
 from trackvib_sim.simulation.settings import NANO
@@ -109,16 +110,20 @@ def test_one_file_and_several_files_are_bags_too(bag, tmp_path):
 @given(share=st.floats(0.0, 1.0))
 @settings(max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_a_bag_cut_anywhere_is_read_as_far_as_it_goes(bag, tmp_path, share):
-    """What is read is the beginning of the whole; with less than a chunk there is one clear error."""
+    """What is read is the beginning of the whole, message for message what `bag repair` keeps; or a clear error."""
     whole, data = read_recording(bag), next(bag.glob("*.mcap")).read_bytes()
     cut = tmp_path / "cut.mcap"
     cut.write_bytes(data[: int(share * len(data))])
     try:
         recording = read_recording(cut)
     except BagError as error:
-        assert share < 0.5 and str(cut) in str(error)
+        assert share < 0.25 and str(cut) in str(error)  # a quarter holds a whole block of 128 KiB
         return
-    assert share > 0.2
+    kept = Counter(each.topic for each in raw_records(cut) if isinstance(each, RawMessage) and each.message is not None)
+    assert recording.counts == kept
+    assert whole.complete
+    if kept != whole.counts:
+        assert not recording.complete
     for part in ("chassis", "powertrain", "mounts", "answers"):
         for found, column in zip(getattr(recording, part), getattr(whole, part), strict=True):
             np.testing.assert_array_equal(found, column[: len(found)])
@@ -184,3 +189,27 @@ def test_sensors_of_two_vehicles_are_refused(tmp_path, bag):
     shutil.copy(next(bag.glob("*.mcap")), tmp_path / "bag" / "bag_1.mcap")
     with pytest.raises(BagError, match="several vehicles.*/other/chassis/imu"):
         read_recording(tmp_path / "bag")
+
+
+@pytest.mark.property
+def test_a_damaged_chunk_is_named_with_the_way_out(bag, tmp_path):
+    """Numbers with a hole that nobody sees are worse than none."""
+    data = bytearray(next(bag.glob("*.mcap")).read_bytes())
+    data[len(data) // 2] ^= 1
+    (tmp_path / "bag_0.mcap").write_bytes(data)
+    with pytest.raises(BagError, match="damaged.*bag repair` keeps the others"):
+        read_recording(tmp_path)
+
+
+@pytest.mark.property
+def test_what_one_run_needs(bag, tmp_path):
+    """A part that is missing is named by its topic; stamps that go back are another run."""
+    recording = read_recording(bag)
+    recording.require("mounts", "vehicle")
+    with pytest.raises(BagError, match=r"bag' holds no messages on road_profile$"):
+        recording.require("mounts", "road", "vehicle")
+    file = next(bag.glob("*.mcap"))
+    for number in range(2):
+        shutil.copy(file, tmp_path / f"bag_{number}.mcap")
+    with pytest.raises(BagError, match=r"more than one run: after t = 2\.500 s /chassis/imu begins anew"):
+        read_recording(tmp_path).require()

@@ -167,7 +167,7 @@ def test_chunk_with_a_wrong_checksum_is_left_out(sound, copy, number):
 
 def test_nonsense_is_refused_and_left_as_it_was(tmp_path):
     """A folder without bag, and files that are no MCAP, give one error that names them."""
-    with pytest.raises(BagError, match="no bag"):
+    with pytest.raises(BagError, match="holds no .mcap file"):
         repair(tmp_path)
     for content in (b"", b"\x89MCA", b"not a bag at all"):
         (tmp_path / NAME).write_bytes(content)
