@@ -1,10 +1,10 @@
-"""How long an hour's bag takes to be read and analysed, and in how much memory, beside rosbags.
+"""How long an hour's bag takes to be read, analysed and reported on, and in how much memory, beside rosbags.
 
     ./trackvib exec -- python bench/analyze.py --minutes 60
 
 The bag is written first, into a temporary folder, by the recorder's own writer: both Imu, mount states, currents
-(1 kHz each) and odometry, with noise for numbers. Reading and measuring are timed one after the other, on the clock and
-in processor time, which counts on a busy machine; rosbags' reader decodes the first messages of the same bag, one by
+(1 kHz each) and odometry, with noise for numbers. The steps of `trackvib analyze` are timed one after the other, on the
+clock and in processor time, which counts on a busy machine; rosbags' reader decodes the first messages of the same bag, one by
 one as it does, and its time is scaled to all. Memory is the process's own, sampled; the columns in temporary files, of
 which the system keeps what it has room for, are shown beside it.
 """
@@ -24,6 +24,9 @@ from rich.console import Console
 from rich.table import Table
 from rosbags.highlevel import AnyReader
 from trackvib_sim.analysis.bag_analysis import analyse
+from trackvib_sim.analysis.bag_tables import write_tables
+from trackvib_sim.analysis.report.excerpt import excerpt
+from trackvib_sim.analysis.report.page import write_report
 from trackvib_sim.bags.cdr_layout import find_layout, type_store
 from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.bags.schemas import schema_text
@@ -139,13 +142,17 @@ def main(minutes):
         watch = Stopwatch()
         recording = read_recording(path)
         read = watch.lap()
-        analyse(recording)
+        analysis = analyse(recording)
         measured = watch.lap()
+        write_tables([analysis], Path(place))
+        write_report([excerpt(recording, analysis)], Path(place) / "report.html")
+        written = watch.lap()
         memory.stop()
     table = Table(title="an analysis, and the peer's reading alone, of all messages")
     for name in ("", "s", "s of processor", "messages/s", "peer's time over it"):
         table.add_column(name, justify="right")
-    for name, seconds in (("read", read), ("measure", measured), ("both", read + measured), ("peer", theirs)):
+    laps = {"read": read, "measure": measured, "tables and report": written, "all": read + measured + written}
+    for name, seconds in (laps | {"peer": theirs}).items():
         clock, processor = seconds
         ratio = theirs[1] / processor
         table.add_row(name, f"{clock:.1f}", f"{processor:.1f}", f"{count / clock:.3g}", f"{ratio:.1f}")

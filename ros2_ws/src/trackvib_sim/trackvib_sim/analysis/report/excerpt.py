@@ -1,5 +1,6 @@
 """What a report keeps of a recording: little enough to hold many, and to send to a browser."""
 
+from bisect import bisect_right
 from typing import NamedTuple
 
 import numpy as np
@@ -8,6 +9,7 @@ from scipy.signal.windows import hann
 
 from ...simulation.settings import NANO
 from ..bag_numbers import SIDES, Analysis
+from ..stretches import BLOCK, blocks
 from ..summary import AXES, SENSORS
 from .thinning import thinned
 
@@ -53,24 +55,25 @@ def excerpt(recording, analysis):
     """Return the `Excerpt` of a `bags.recording.Recording` and its `Analysis`."""
     step = TICKS / analysis.rate
     sensors = {sensor: getattr(recording, sensor) for sensor in SENSORS}
-    times = {sensor: seconds(inertial.stamp, analysis.begin) for sensor, inertial in sensors.items()}
+    times = {sensor: Seconds(inertial.stamp, analysis.begin) for sensor, inertial in sensors.items()}
     mounts, answers = recording.mounts, recording.answers
     currents, deflections, velocities = {}, {}, {}
     for sources, stamp, words in ((answers, "sample_stamp", "demanded"), (mounts, "stamp", "in the coil")):
         if sources is not None:
-            time = seconds(getattr(sources, stamp), analysis.begin)
+            time = Seconds(getattr(sources, stamp), analysis.begin)
             for column, side in enumerate(SIDES):
                 currents[f"{side}, {words}"] = thinned(time, sources.current[:, column], step)
     if mounts is not None:
-        settled = np.searchsorted(mounts.stamp, analysis.begin + round(analysis.settle * NANO), side="right")
+        settled = bisect_right(mounts.stamp, analysis.begin + round(analysis.settle * NANO))
         for column, side in enumerate(SIDES):
             deflection, velocity, force = (
                 each[settled:, column, VERTICAL] for each in (mounts.deflection, mounts.velocity, mounts.force)
             )
             if len(deflection):
-                around = _greatest(deflection, round(EXCERPT * analysis.rate))
-                deflections[side] = _loop(1e3 * deflection, 1e-3 * force, around)
-                velocities[side] = _loop(velocity, 1e-3 * force, around)
+                mean = analysis.mounts[side].axes["z"].deflection_mean
+                around = _greatest(deflection, mean, round(EXCERPT * analysis.rate))
+                deflections[side] = _loop(deflection, 1e3, force, around)
+                velocities[side] = _loop(velocity, 1.0, force, around)
     return Excerpt(
         analysis,
         recording.provenance,
@@ -92,9 +95,17 @@ def excerpt(recording, analysis):
     )
 
 
-def seconds(stamp, begin):
-    """Return stamps (k,) [ns] as seconds since `begin` [ns]."""
-    return (stamp - begin) / NANO
+class Seconds:
+    """Stamps (k,) [ns] as seconds since `begin` [ns], converted where they are looked at."""
+
+    def __init__(self, stamp, begin):
+        self._stamp, self._begin = stamp, begin
+
+    def __len__(self):
+        return len(self._stamp)
+
+    def __getitem__(self, index):
+        return (self._stamp[index] - self._begin) / NANO
 
 
 def spectrogram(time, values, rate, duration):
@@ -112,7 +123,7 @@ def spectrogram(time, values, rate, duration):
     half = max(0.5 * (edges[1] - edges[0]), 0.5 * window / rate)
     # at the ends the window keeps its length and lies inside
     centre = np.clip(middle, half, max(duration - half, half))
-    first, last = (np.searchsorted(time, centre + side * half, side="right") for side in (-1.0, 1.0))
+    first, last = ([bisect_right(time, edge) for edge in centre + side * half] for side in (-1.0, 1.0))
     for column, (begin, end) in enumerate(zip(first, last, strict=True)):
         part = values[begin:end]
         if len(part) < window - 1 or abs((time[end - 1] - time[begin]) * rate - (len(part) - 1)) > 0.5:
@@ -124,18 +135,28 @@ def spectrogram(time, values, rate, duration):
     return Spectrogram(middle.astype(np.float32), transform.f.astype(np.float32), level)
 
 
-def _greatest(deflection, length):
+def _greatest(deflection, mean, length):
     """Return the slice of a length about the greatest distance from the mean."""
-    first = int(np.argmax(np.abs(deflection - deflection.mean()))) - length // 2
-    first = max(0, min(first, len(deflection) - length))
+    greatest, place = -1.0, 0
+    for block in blocks(len(deflection), BLOCK):
+        distance = np.abs(deflection[block] - mean)
+        index = int(distance.argmax())
+        if distance[index] > greatest:
+            greatest, place = distance[index], block.start + index
+    first = max(0, min(place - length // 2, len(deflection) - length))
     return slice(first, first + length)
 
 
-def _loop(across, force, around):
-    counts, *edges = np.histogram2d(force, across, CELLS)
+def _loop(across, factor, force, around):
+    """Return the `Loop` of a force [N] over something times a factor; the slice `around` is its line."""
+    ranges = [[scale * each.min(), scale * each.max()] for each, scale in ((force, 1e-3), (across, factor))]
+    counts = np.zeros((CELLS, CELLS))
+    for block in blocks(len(force), BLOCK):
+        found, *edges = np.histogram2d(1e-3 * force[block], factor * across[block], CELLS, ranges)
+        counts += found
     with np.errstate(divide="ignore"):
         density = np.log10(counts)
     density[counts == 0.0] = np.nan
     rows, columns = (0.5 * (edge[1:] + edge[:-1]).astype(np.float32) for edge in edges)
-    line = across[around].astype(np.float32), force[around].astype(np.float32)
+    line = (factor * across[around]).astype(np.float32), (1e-3 * force[around]).astype(np.float32)
     return Loop(columns, rows, density.astype(np.float32), line)
