@@ -4,9 +4,9 @@
 
 The bag is written first, into a temporary folder, by the recorder's own writer: both Imu, mount states, currents
 (1 kHz each) and odometry, with noise for numbers. The steps of `trackvib analyze` are timed one after the other, on the
-clock and in processor time, which counts on a busy machine; rosbags' reader decodes the first messages of the same bag, one by
-one as it does, and its time is scaled to all. Memory is the process's own, sampled; the columns in temporary files, of
-which the system keeps what it has room for, are shown beside it.
+clock and in processor time, which counts on a busy machine; rosbags' reader decodes the first messages of the same bag,
+one by one as it does, and its time is scaled to all. Memory is the process's own, sampled; the columns in temporary
+files, of which the system keeps what it has room for, are shown beside it.
 """
 
 import threading
