@@ -21,7 +21,8 @@ def open_bag(path):
         reader = AnyReader(bag_files(path))
         reader.open()
     except (OSError, McapError, AnyReaderError, ReaderError) as error:
-        raise BagError(f"bag {str(path)!r} cannot be read: {error}; was it cut short?") from None
+        hint = "if it was cut short, `trackvib bag repair` completes it"
+        raise BagError(f"bag {str(path)!r} cannot be read: {error}; {hint}") from None
     if not reader.message_count:
         reader.close()
         raise BagError(f"bag {str(path)!r} holds no messages")

@@ -1,6 +1,5 @@
 """The figures about one bag: a function each, from its `Excerpt`."""
 
-import numpy as np
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 
@@ -20,7 +19,6 @@ from .figure_style import (
 )
 
 LONG = 30  # bins, from which levels along the bag tell more than the histories
-RANGE = 50.0  # dB below the greatest level that a spectrogram tells apart
 _DENSITY = ((0.0, "rgba(128,128,128,0.2)"), (1.0, "rgba(128,128,128,0.95)"))
 
 
@@ -82,30 +80,6 @@ def transmission(excerpt):
     alike = over_frequency(traces(found.coherence), excerpt.analysis, "Coherence", "coherence, -")
     alike.update_yaxes(range=(0.0, 1.02))
     return [ratio(traces(found.transmissibility), excerpt.analysis, "Transmissibility"), alike]
-
-
-def spectrograms(excerpt):
-    """Vertical power spectral density over time: a figure a sensor, in the same colours."""
-    found = excerpt.spectrograms
-    levels = np.concatenate([each.level.ravel() for each in found.values()])
-    top = np.nanmax(levels) if np.isfinite(levels).any() else 0.0
-    low = max(top - RANGE, np.nanmin(levels) if np.isfinite(levels).any() else 0.0)
-    figures = []
-    for sensor in SENSORS:
-        each = found[sensor]
-        bar = {"title": {"text": "dB", "side": "top"}, "thickness": 10, "outlinewidth": 0, "x": 1.0, "xpad": 4}
-        figure = go.Figure(
-            go.Heatmap(
-                x=each.time, y=each.frequency, z=each.level, zmin=low, zmax=top, colorscale="Cividis", colorbar=bar,
-                hovertemplate="%{x:.2f} s, %{y:.0f} Hz: %{z:.1f} dB<extra></extra>",
-            )
-        )  # fmt: skip
-        styled(figure, 340, f"{sensor.capitalize()}, vertical z")
-        figure.update_layout(margin={"r": 58, "t": 40})
-        figure.update_xaxes(title_text="time, s", showgrid=False)
-        figure.update_yaxes(title_text="frequency, Hz", showgrid=False)
-        figures.append(figure)
-    return figures
 
 
 def mount_loops(excerpt):

@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from ..summary import AXES
-from . import bag_figures, comparison_figures, facts, tables
+from . import bag_figures, comparison_figures, facts, spectrogram_figures, tables
 
 _WEIGHTED = "Weighted: ISO 2631-1, Wk along z, Wd along x and y."
 _SPECIFIC_FORCE = "Specific force as recorded, +g along z at rest."
@@ -11,6 +11,7 @@ _WELCH = (
     "Welch's method, windows of 1 s. Dotted: links entering the sprockets, v/p and multiples. "
     "Dashed: orders of the engine"
 )
+_LEVEL = "Level in dB re 1 (m/s²)²/Hz, windows of 0.5 s. Empty where samples are missing."
 
 
 class Section(NamedTuple):
@@ -47,8 +48,8 @@ def of_one(excerpt):
         ),
         Section(
             "Spectrograms",
-            "Level in dB re 1 (m/s²)²/Hz, windows of 0.5 s. Empty where samples are missing.",
-            bag_figures.spectrograms(excerpt),
+            _LEVEL,
+            spectrogram_figures.of_sensors(excerpt),
             [],
             2,
         ),
@@ -79,6 +80,13 @@ def of_several(excerpts, names):
         ),
         Section("Spectra", f"{_WELCH}; both of {names[0]}.", comparison_figures.spectra(excerpts, names), [], 3),
         Section("From chassis to powertrain", "", comparison_figures.transmissibilities(excerpts, names), [], 3),
+        Section(
+            "Spectrograms",
+            f"Powertrain, vertical z. {_LEVEL}",
+            spectrogram_figures.of_powertrains(excerpts, names),
+            [],
+            2,
+        ),
         Section("Histories", _SPECIFIC_FORCE, comparison_figures.histories(excerpts, names), []),
         Section(
             "Mounts",
