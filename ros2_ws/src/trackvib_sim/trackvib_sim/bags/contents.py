@@ -4,11 +4,12 @@ from collections import Counter
 from pathlib import Path
 from typing import NamedTuple
 
-from mcap.exceptions import McapError
 from mcap.reader import make_reader
+from mcap.writer import MCAP0_MAGIC
 
 from .files import bag_files
 from .metadata import channels, summary_of
+from .salvage import DAMAGE
 from .writing import BagError
 
 
@@ -75,8 +76,11 @@ def attachment(path, name):
 def _summary(file):
     try:
         summary = summary_of(file)
-    except (McapError, OSError, ValueError):
+    except (OSError, *DAMAGE):
         summary = None
     if summary is None:
+        with file.open("rb") as stream:
+            if stream.read(len(MCAP0_MAGIC)) != MCAP0_MAGIC:
+                raise BagError(f"{str(file)!r} is no MCAP file")
         raise BagError(f"{str(file)!r} was cut short; `trackvib bag repair` completes it")
     return summary

@@ -1,11 +1,11 @@
 """Opens a bag for playing: raw messages in order of time, and the quality of service with which they came."""
 
-from mcap.exceptions import McapError
 from rosbags.highlevel import AnyReader, AnyReaderError
 from rosbags.interfaces import QosDurability, QosReliability
 from rosbags.rosbag2 import ReaderError
 
 from .files import bag_files
+from .salvage import DAMAGE
 from .writing import BagError
 
 
@@ -20,7 +20,7 @@ def open_bag(path):
     try:
         reader = AnyReader(bag_files(path))
         reader.open()
-    except (OSError, McapError, AnyReaderError, ReaderError) as error:
+    except (OSError, AnyReaderError, ReaderError, *DAMAGE) as error:
         hint = "if it was cut short, `trackvib bag repair` completes it"
         raise BagError(f"bag {str(path)!r} cannot be read: {error}; {hint}") from None
     if not reader.message_count:
