@@ -3,10 +3,11 @@
     ./trackvib exec -- python bench/analyze.py --minutes 60
 
 The bag is written first, into a temporary folder, by the recorder's own writer: both Imu, mount states, currents
-(1 kHz each) and odometry, with noise for numbers. The steps of `trackvib analyze` are timed one after the other, on the
-clock and in processor time, which counts on a busy machine; rosbags' reader decodes the first messages of the same bag,
-one by one as it does, and its time is scaled to all. Memory is the process's own, sampled; the columns in temporary
-files, of which the system keeps what it has room for, are shown beside it.
+(1 kHz each) and odometry, with noise for numbers; road and diagnostics as often as in a run. The steps of
+`trackvib analyze` are timed one after the other, on the clock and in processor time, which counts on a busy machine;
+rosbags' reader decodes the first messages of the same bag, one by one as it does, and its time is scaled to all. Memory
+is the process's own, sampled; the columns in temporary files, of which the system keeps what it has room for, are shown
+beside it.
 """
 
 import threading
@@ -18,11 +19,13 @@ from tempfile import TemporaryDirectory
 
 import click
 import numpy as np
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from machine import machine
 from rclpy.serialization import serialize_message
 from rich.console import Console
 from rich.table import Table
 from rosbags.highlevel import AnyReader
+from trackvib_msgs.msg import RoadProfile
 from trackvib_sim.analysis.bag_analysis import analyse
 from trackvib_sim.analysis.bag_tables import write_tables
 from trackvib_sim.analysis.report.excerpt import excerpt
@@ -48,9 +51,23 @@ TOPICS = {  # type, stamp, fields of noise, every how many periods
 DECODED = 100_000  # messages, by the peer
 
 
+def rare_messages():
+    """Return type, distance in periods, and a message by topic."""
+    heights = np.zeros(100)
+    told = [KeyValue(key=name, value="0") for name in ("silent_periods", *map(str, range(30)))]
+    status = DiagnosticArray(status=[DiagnosticStatus(name="simulator", values=told)])
+    road = RoadProfile(spacing=0.05, left=heights, right=heights)
+    return {
+        "/diagnostics": ("diagnostic_msgs/msg/DiagnosticArray", 100, serialize_message(status)),
+        "/road_profile": ("trackvib_msgs/msg/RoadProfile", 500, serialize_message(road)),
+    }
+
+
 def write(path, minutes):
     """Write a bag, a minute at a time."""
-    random, bag, templates = np.random.default_rng(1), BagWriter(path), {}
+    random, bag, templates, rare = np.random.default_rng(1), BagWriter(path), {}, rare_messages()
+    for topic, (type_name, _, _) in rare.items():
+        bag.add_topic(topic, type_name, [], "")
     for topic, (type_name, stamp, noise, _) in TOPICS.items():
         bag.add_topic(topic, type_name, [], "")
         package, kind, name = type_name.split("/")
@@ -78,6 +95,9 @@ def write(path, minutes):
                 if (k + 1) % every == 0:
                     index = (k + 1) // every - 1
                     bag.write(topic, times[index], data[index * size : (index + 1) * size])
+            for topic, (_, every, data) in rare.items():
+                if (k + 1) % every == 0:
+                    bag.write(topic, (minute * 60 * RATE + k + 1) * PERIOD, data)
     bag.close()
     return bag.counts.total()
 

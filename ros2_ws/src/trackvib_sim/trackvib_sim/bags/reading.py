@@ -123,8 +123,9 @@ class _Reading:
             if end == "vehicle_description":
                 self._vehicles[topic] = message.data
             elif end == "road_profile":
-                patch = message.start, message.spacing, message.left, message.right
-                self._roads.setdefault(topic, []).append(patch)
+                # copies, for these arrays would keep the whole part in memory
+                heights = message.left.copy(), message.right.copy()
+                self._roads.setdefault(topic, []).append((message.start, message.spacing, *heights))
             else:
                 self._take_diagnostics(message)
 
