@@ -144,6 +144,7 @@ def test_a_killed_player_leaves_the_bag_as_it_was(start_node, observer, bag):
         ({"rate": 0.0}, 2, "parameter 'rate' is 0.0, accepted is a number (written with a point, as 1.0) from 0.01 to"),
         ({"topics": '["chassis/gps"]'}, 2, "no topic 'chassis/gps', it has /chassis/imu, /clock"),
         ({"rat": 1.0}, 2, "there is no parameter 'rat'"),
+        ({"bag": "''"}, 2, "parameter 'bag' is empty"),
     ],
 )
 def test_bad_input(start_node, bag, given, code, words):

@@ -117,6 +117,7 @@ def test_full_disk(start, start_node, small_disk, tmp_path):
     assert recorder.wait() == 1
     said = last_words(recorder)
     assert words in said and "disk/bag" in said and "trackvib bag repair" in said
+    assert "xception" not in recorder.output
     saved = shutil.copytree(disk / "bag", tmp_path / "saved")
     assert repair(saved).files[0].messages > 300
     _, counts = counted(saved, "/stream")
@@ -139,6 +140,21 @@ def test_disk_that_is_full_at_the_start(start_node, small_disk, tmp_path):
     assert recorder.wait() == 1
     assert re.search(rf"bag '.*disk/bag' cannot be made: {words}", last_words(recorder))
     assert not (disk / "bag").exists()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_messages_that_never_cease_do_not_keep_it_alive(start, start_node, tmp_path, number):
+    """Asked to end, it does while they go on; the bag is whole."""
+    stream = start([sys.executable, STREAM, "one", "two", "three"])
+    recorder = start_node("recorder", bag=tmp_path / "bag", topics="[one, two, three]")
+    recorder.wait_for("recording 3 topics")
+    time.sleep(1.0)
+    recorder.signal(number)
+    assert recorder.wait() == 0, recorder.output
+    assert stream.running
+    assert not repair(tmp_path / "bag").files
+    for topic in ("/one", "/two", "/three"):
+        np.testing.assert_array_equal(np.diff(counted(tmp_path / "bag", topic)[1]), 1.0)
 
 
 def test_topics_by_pattern_are_taken_up_when_they_appear(start, start_node, tmp_path):

@@ -146,6 +146,7 @@ def test_interrupted(start_cli, recorded_run, tmp_path):
     [
         ((), 2, "exactly one of --verify, --law and --controller is needed"),
         (("--verify", "--law", "passive"), 2, "exactly one of"),
+        (("--verify", "--out", "somewhere"), 2, "--out does not go with it"),
         (("--law", "magic"), 2, "accepted is one of acceleration_driven"),
         (("--controller", "magic"), 2, "accepted is one of acceleration_driven"),
         (("--law", "passive", "--out", "/proc/none"), 1, "cannot be made"),

@@ -2,6 +2,7 @@
 
 import shutil
 import signal
+from pathlib import Path
 
 import pytest
 from mcap.records import Metadata
@@ -61,7 +62,7 @@ def test_a_recorded_run_comes_out_again(start_cli, recorded_run):
     """One line and exit code 0."""
     replay = start_cli("replay", recorded_run / "bag", "--verify")
     assert replay.wait() == 0, replay.output
-    verdict = replay.output.strip().splitlines()[-1]
+    (verdict,) = replay.output.splitlines()
     assert "identical to the last bit: 3200 of /mount_state, 3200 of /chassis/imu, 3200 of /powertrain/imu" in verdict
 
 
@@ -173,6 +174,23 @@ def test_nonsense_is_refused(start_cli, tmp_path, content):
     replay = start_cli("replay", bag, "--verify")
     assert replay.wait() == 2
     assert replay.output.startswith(f"cannot be verified: bag '{bag}'") and "Traceback" not in replay.output
+
+
+def test_a_run_is_no_bag(start_cli, recorded_run):
+    """But it is clear what is meant."""
+    replay = start_cli("replay", recorded_run, "--verify")
+    assert replay.wait() == 2
+    assert f"holds no .mcap file; did you mean '{recorded_run / 'bag'}'?" in replay.output
+
+
+def test_interrupted_at_any_moment(start_cli, recorded_run):
+    """Also while it is still loading its libraries: one word, and no code that stands for a verdict."""
+    replay = start_cli("replay", recorded_run / "bag", "--verify")
+    while "zstandard" not in Path(f"/proc/{replay.pid}/maps").read_text():  # needed first by what a verb does
+        assert replay.running
+    replay.signal(signal.SIGINT)
+    assert replay.wait() == 130
+    assert replay.output == "interrupted\n"
 
 
 @pytest.mark.parametrize("policy", ["hold", "passive"])

@@ -28,7 +28,13 @@ class Parameter:
         """What is accepted, in words."""
         if self.choices:
             return "one of " + ", ".join(self.choices)
-        kind = {bool: "true or false", int: "a whole number", float: "a number", str: "a text", list: "a list of texts"}
+        kind = {
+            bool: "true or false",
+            int: "a whole number",
+            float: "a number",
+            str: "a text",
+            list: "a list of texts (of none: [''])",
+        }
         words = kind[type(self.default)]
         if isinstance(self.default, float):
             words += " (written with a point, as 1.0)"

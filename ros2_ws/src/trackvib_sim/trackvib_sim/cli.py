@@ -8,13 +8,24 @@ from mr_mount_controller.laws import known_laws
 
 from .commands.analyze_cli import analyze
 from .commands.bag_cli import bag
-from .commands.option_types import FiniteRange, known_law
+from .commands.option_types import INTERRUPTED, FiniteRange, known_law
 from .commands.replay_cli import replay
 from .commands.study_cli import study
 from .road.iso8608 import CLASSES
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+class _Verbs(click.Group):
+    """Ctrl-C at any moment ends a verb in one line, with the exit code that shells know it by."""
+
+    def invoke(self, context):
+        try:
+            return super().invoke(context)
+        except KeyboardInterrupt:
+            click.echo("interrupted", err=True)
+            sys.exit(INTERRUPTED)
+
+
+@click.group(cls=_Verbs, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 def main():
     """Vibration laboratory for a tracked vehicle's powertrain on magnetorheological mounts."""
     # An orderly end, as on Ctrl-C, when the terminal is closed or the process is asked to end; a job started in the
@@ -51,9 +62,6 @@ def run(road_class, speed, duration, law, seed, one_process, out):
     except CommandError as error:
         click.echo(f"error: {error}", err=True)
         sys.exit(1)
-    except KeyboardInterrupt:
-        click.echo("interrupted", err=True)
-        sys.exit(130)
 
 
 @main.command()

@@ -16,6 +16,7 @@ from mcap.opcode import Opcode
 from mcap.reader import make_reader
 from mcap.writer import MCAP0_MAGIC
 from rosbags.rosbag2 import Reader
+from trackvib_sim.bags.contents import contents
 from trackvib_sim.bags.repair import repair
 from trackvib_sim.bags.writing import BagError, BagWriter
 
@@ -93,7 +94,7 @@ def test_cut_anywhere(sound, part):
 
 
 def test_nothing_but_the_end_is_lost(sound, copy):
-    """Provenance and attachments are kept; the metadata is that of the sound bag but for what was cut off."""
+    """Provenance, attachments, compression are kept; the metadata is that of the sound bag but for what was cut off."""
     (copy / NAME).write_bytes(sound.data[: ends(sound.data)[50]])
     repair(copy)
     with (copy / NAME).open("rb") as stream:
@@ -101,6 +102,7 @@ def test_nothing_but_the_end_is_lost(sound, copy):
         assert [each.metadata for each in reader.iter_metadata()] == [{"trackvib_sim": "0"}]
         assert [(each.name, each.data) for each in reader.iter_attachments()] == [("vehicle.yaml", b"name: test\n")]
         assert reader.get_header().profile == "ros2"
+    assert contents(copy).compression == contents(sound.folder).compression
     old, new = (
         yaml.safe_load((folder / "metadata.yaml").read_text())["rosbag2_bagfile_information"]
         for folder in (sound.folder, copy)

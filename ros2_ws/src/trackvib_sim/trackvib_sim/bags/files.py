@@ -20,5 +20,13 @@ def bag_files(path):
         return [path]
     files = sorted(path.glob("*.mcap"), key=lambda each: (len(each.name), each.name))
     if not files:
-        raise BagError(f"bag {str(path)!r} {'holds no .mcap file' if path.is_dir() else 'is not there'}")
+        inside = path / "bag"
+        hint = f"; did you mean {str(inside)!r}?" if inside.is_dir() else ""  # of a run's folder
+        raise BagError(f"bag {str(path)!r} {'holds no .mcap file' if path.is_dir() else 'is not there'}{hint}")
     return files
+
+
+def called(path):
+    """Return what to call a bag in a title: its name, with that of the run's folder before `bag`."""
+    parts = Path(path).resolve().parts
+    return "/".join(parts[-2:]) if parts[-1] == "bag" else parts[-1]

@@ -12,7 +12,7 @@ from mcap.writer import MCAP0_MAGIC, CompressionType, Writer
 
 from .files import bag_files
 from .metadata import summary_of, write_metadata
-from .salvage import DAMAGE, Salvage, is_sound
+from .salvage import DAMAGE, Salvage, compression_of, is_sound
 from .writing import CHUNK, LIBRARY, BagError
 
 _TELL = 1000  # records between two calls of `told`
@@ -72,10 +72,13 @@ def _repair_file(file, told):
             return None
         original = _name_of_original(file)
         stream.seek(0)
+        compression = CompressionType.NONE if compression_of(stream, size) == "" else CompressionType.ZSTD
+        stream.seek(0)
         salvage = Salvage(stream, size)
         try:
             with part.open("wb") as target:
-                messages = _copy(chain(_announced(file), salvage.records()), target, lambda: told(stream.tell(), size))
+                whole = chain(_announced(file), salvage.records())
+                messages = _copy(whole, target, compression, lambda: told(stream.tell(), size))
             file.rename(original)
             part.replace(file)
         finally:
@@ -111,9 +114,9 @@ def _announced(file):
     return [] if summary is None else [*summary.schemas.values(), *summary.channels.values()]
 
 
-def _copy(whole, target, told):
+def _copy(whole, target, compression, told):
     """Write whole records to a new file, with an index; returns how many messages."""
-    writer = Writer(target, chunk_size=CHUNK, compression=CompressionType.ZSTD)
+    writer = Writer(target, chunk_size=CHUNK, compression=compression)
     header, schemas, channels, messages = None, {0: 0}, {}, 0
     for number, record in enumerate(whole):
         if number % _TELL == 0:

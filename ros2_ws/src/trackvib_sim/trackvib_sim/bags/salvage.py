@@ -73,6 +73,12 @@ def is_sound(file):
         return False
 
 
+def compression_of(stream, size):
+    """Return how the first whole chunk of a file is compressed, as MCAP names it; None if there is none."""
+    chunks = (record for record in _whole(stream, size, skip_magic=False) if isinstance(record, Chunk))
+    return next((chunk.compression for chunk in chunks), None)
+
+
 def _whole(stream, size, skip_magic):
     records = StreamReader(stream, skip_magic=skip_magic, emit_chunks=True, record_size_limit=size).records
     while True:

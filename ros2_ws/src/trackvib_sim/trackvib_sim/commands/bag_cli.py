@@ -5,6 +5,8 @@ from contextlib import contextmanager
 
 import click
 
+from .option_types import INTERRUPTED
+
 
 @click.group()
 def bag():
@@ -22,7 +24,7 @@ def _ends_in_one_line():
         sys.exit(1)
     except KeyboardInterrupt:
         click.echo("interrupted; the bag is as it was", err=True)
-        sys.exit(130)
+        sys.exit(INTERRUPTED)
 
 
 @bag.command()

@@ -13,12 +13,10 @@ def show(path):
     """Print topics, times and origin of a bag; raises `BagError`."""
     found, console = contents(path), Console(highlight=False)
     table = Table(title=str(path), title_justify="left")
-    for name in ("topic", "type", "messages", "Hz"):
-        table.add_column(name, justify="right" if name in ("messages", "Hz") else "left")
-    duration = (found.last - found.first) / NANO
+    for name in ("topic", "type", "messages"):
+        table.add_column(name, justify="right" if name == "messages" else "left")
     for topic, type_name in sorted(found.types.items()):
-        count = found.counts[topic]
-        table.add_row(topic, type_name, str(count), f"{count / duration:.1f}" if duration else "")
+        table.add_row(topic, type_name, str(found.counts[topic]))
     console.print(table)
     for line in (
         f"{found.counts.total()} messages from {found.first / NANO:.3f} to {found.last / NANO:.3f} s",
@@ -33,7 +31,7 @@ def show(path):
 def mend(path):
     """Repair a bag and print what was done; raises `BagError`."""
     console = Console(highlight=False)
-    with Progress(console=console, transient=True) as progress:
+    with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:
         task = progress.add_task("repairing")
         done = repair(path, lambda read, size: progress.update(task, completed=read, total=size))
     for file in done.files:

@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import socket
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
@@ -23,7 +24,7 @@ from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses
 from ..nodes.road_excitation import PARAMETERS as ROAD_PARAMETERS
 from ..nodes.watch import Watch
 from ..vehicle.mount_audit import MountEnergy
-from .result_folder import CommandError, make_folder
+from .result_folder import CommandError, make_folder, writing_to
 
 HIGHEST_DOMAIN = 232  # of ROS 2; beyond it DDS has no ports
 _LOOK = 0.2  # s between looks at processes and progress
@@ -76,7 +77,8 @@ def perform(choices, out):
         console.print(f"closed loop: {choices.title}")
         interrupt = _run_nodes(choices, folder, console)
     try:
-        _evaluate(choices, folder, console)
+        with writing_to(folder):
+            _evaluate(choices, folder, console)
     except (BagError, ValueError) as error:
         raise interrupt or CommandError(str(error)) from None
     if interrupt is not None:
@@ -122,8 +124,18 @@ def _run_nodes(choices, folder, console):
     codes = processes.stop()
     if interrupted is None and any(codes.values()):
         name = next(name for name in (*first, *codes) if codes[name])
-        raise CommandError(f"'{name}' ended with exit code {codes[name]}; it said:\n{processes.last_words(name)}")
+        raise CommandError(f"{_ending(name, codes[name], folder)}; it said:\n{processes.last_words(name)}")
     return interrupted
+
+
+def _ending(name, code, folder):
+    """Return in words how a process ended."""
+    if code > 0:
+        return f"'{name}' ended with exit code {code}"
+    words = f"'{name}' was ended by {signal.Signals(-code).name}"
+    if name == "recorder":
+        words += f"; `trackvib bag repair {folder / 'bag'}` completes what it had recorded"
+    return words
 
 
 def _follow(processes, duration, console):

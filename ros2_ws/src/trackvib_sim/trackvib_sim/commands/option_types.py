@@ -1,10 +1,12 @@
-"""Types of command-line options."""
+"""What the verbs' command lines share: types of options, exit codes."""
 
 from math import isfinite
 
 import click
 from mr_mount_controller.laws import find_law
 from mr_mount_controller.parameters import ParameterError
+
+INTERRUPTED = 130  # exit code of what Ctrl-C has ended, as shells give it
 
 
 class FiniteRange(click.FloatRange):

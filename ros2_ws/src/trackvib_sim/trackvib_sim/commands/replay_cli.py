@@ -35,6 +35,8 @@ def replay(bag, verify, law, controller, out):
     """Replay a bag into the simulator (--verify, --law) or into a controller (--controller)."""
     if sum((verify, law is not None, controller is not None)) != 1:
         raise click.UsageError("exactly one of --verify, --law and --controller is needed")
+    if verify and out is not None:
+        raise click.UsageError("--verify leaves nothing, so --out does not go with it")
     from rich.console import Console  # imported late: --help need not wait for it
 
     from ..bags.writing import BagError
@@ -59,6 +61,3 @@ def replay(bag, verify, law, controller, out):
     except (BagError, LawError, CommandError, ValueError, OSError) as error:
         click.echo(f"{'cannot be verified' if verify else 'error'}: {error}", err=True)
         sys.exit(CANNOT_VERIFY if verify else 1)
-    except KeyboardInterrupt:
-        click.echo("interrupted", err=True)
-        sys.exit(130)

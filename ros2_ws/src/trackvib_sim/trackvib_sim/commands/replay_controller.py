@@ -2,15 +2,14 @@
 
 import json
 from contextlib import contextmanager
-from pathlib import Path
 
 import numpy as np
 from mr_mount_controller.node_support import LOOP_WRITER_QOS
-from rich.progress import track
 
 from ..analysis.replay_pictures import currents_picture
 from ..analysis.stretches import period_of
 from ..bags.copying import copy_bag
+from ..bags.files import called
 from ..bags.qos import qos_record
 from ..bags.raw_messages import sample_messages
 from ..bags.reading import read_recording
@@ -20,7 +19,8 @@ from ..nodes.controller_trial import ControllerTrial
 from ..nodes.processes import LoopProcesses
 from ..simulation.settings import NANO
 from .closed_loop_run import own_domain
-from .result_folder import CommandError, make_folder
+from .progress import followed
+from .result_folder import CommandError, make_folder, writing_to
 
 REPLAYED = "/replayed/current"  # topic of the new answers
 
@@ -43,21 +43,28 @@ def perform(bag, law, out, console):
         raise BagError(f"bag {str(bag)!r} holds a single sample, at least two are needed")
     with own_domain():
         folder = make_folder(out)
-        writer = BagWriter(folder / "bag")
-        try:
-            copy_bag(bag, writer)
-            for name, told in recording.provenance.items():
-                writer.add_provenance(name, told)
-            writer.add_provenance("replay", {"bag": bag, "controller": law or "external"})
-            replayed = _replay(recording, law, writer, folder, console)
-        finally:
-            writer.close()
+        with writing_to(folder):
+            replayed = _replay_into_bag(recording, law, folder, console)
     summary = {"bag": str(bag), "controller": law or "external", "samples": samples, "answered": len(replayed)}
-    title = f"{Path(bag).name} into {law or 'a controller'}"
-    summary |= _compare(_answers(recording), replayed, folder / "currents.png", title)
-    (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+    title = f"{called(bag)} into {law or 'a controller'}"
+    with writing_to(folder):
+        summary |= _compare(_answers(recording), replayed, folder / "currents.png", title)
+        (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
     console.print(_words(summary), soft_wrap=True)
     console.print(f"left in {folder}: {', '.join(sorted(path.name for path in folder.iterdir()))}", soft_wrap=True)
+
+
+def _replay_into_bag(recording, law, folder, console):
+    """Write all recorded messages and the answers to a bag, which is closed whatever happens; returns the answers."""
+    writer = BagWriter(folder / "bag")
+    try:
+        copy_bag(recording.path, writer)
+        for name, told in recording.provenance.items():
+            writer.add_provenance(name, told)
+        writer.add_provenance("replay", {"bag": recording.path, "controller": law or "external"})
+        return _replay(recording, law, writer, folder, console)
+    finally:
+        writer.close()
 
 
 def _replay(recording, law, writer, folder, console):
@@ -70,7 +77,7 @@ def _replay(recording, law, writer, folder, console):
         trial.wait_for_controller(check)
         writer.add_topic(REPLAYED, "trackvib_msgs/msg/CoilCurrent", [qos_record(LOOP_WRITER_QOS)], trial.type_hash())
         samples = sample_messages(recording.path, topics["chassis/imu"], topics["powertrain/imu"])
-        for stamp, *imus in track(samples, "asking the controller", len(stamps), console=console, transient=True):
+        for stamp, *imus in followed(samples, "asking the controller", console, len(stamps)):
             answer = trial.answer(stamp, *imus)
             if answer is None:
                 check()

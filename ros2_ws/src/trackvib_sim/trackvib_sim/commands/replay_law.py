@@ -4,13 +4,13 @@ import json
 
 import numpy as np
 from mr_mount_controller.laws import find_law
-from rich.progress import track
 from rich.table import Table
 
 from ..analysis.bag_analysis import analyse
 from ..analysis.replay_pictures import drives_picture
 from ..analysis.summary import AXES, SENSORS, TooShort, prepare, summarise
 from ..bags.copying import copy_bag
+from ..bags.files import called
 from ..bags.provenance import PARAMETERS_OF, parameters_with, write_parameters, write_versions
 from ..bags.reading import read_recording
 from ..bags.recording import Answers
@@ -21,6 +21,7 @@ from ..nodes.simulator_parameters import prepare_again
 from ..simulation.closed_loop import periods_under_law
 from ..simulation.settings import NANO
 from ..simulation.simulation import RunFailed
+from .progress import followed
 from .result_folder import all_or_nothing
 
 
@@ -57,7 +58,7 @@ def _compare(recording, rerun, law, ended, folder):
     drives_picture(
         {label: prepare(drive, analyses[0].settle) for label, drive in drives.items()},
         {label: _currents(drive) for label, drive in drives.items()},
-        f"{recording.path.name} again under {law}, {last / NANO:g} s",
+        f"{called(recording.path)} again under {law}, {last / NANO:g} s",
         folder / "replay.png",
     )
     how = {"bag": str(recording.path), "law": law, "duration_s": last / NANO, "ended": ended}
@@ -83,7 +84,7 @@ def _drive(recording, simulation, chosen, law, path, console):
         rerun = RerunBag(writer, known, space, simulation)
         rerun.begin()
         loop = periods_under_law(simulation, chosen)
-        for _ in track(range(periods), f"driving under {law}", console=console, transient=True):
+        for _ in followed(range(periods), f"driving under {law}", console):
             if not simulation.road_is_enough():
                 ended = f"the recorded road ends here: {simulation.distance:.1f} m, t = {simulation.time / NANO:.3f} s"
                 break

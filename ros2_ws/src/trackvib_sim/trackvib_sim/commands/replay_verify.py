@@ -4,7 +4,6 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from rich.progress import track
 
 from ..analysis.bag_numbers import SIDES
 from ..analysis.summary import AXES
@@ -14,6 +13,7 @@ from ..nodes.simulator_parameters import prepare_again
 from ..simulation.recorded_currents import NotTold, currents_in_force
 from ..simulation.settings import NANO
 from ..simulation.simulation import CHASSIS, POWERTRAIN, RunFailed
+from .progress import followed
 
 _PLACES = {2: SIDES, 3: AXES}  # along each dimension of a column, by its length
 _TAIL = NANO  # ns at the end of a bag in which its topics need not end together
@@ -69,7 +69,7 @@ def verify(bag, console):
             raise NotVerifiable(f"{stream.topic} has the stamp {odd[0]} ns, no multiple of the period")
     currents = currents_in_force(simulation, recording, values["on_silence"])
     other = _other_versions(recording.provenance)
-    for _ in track(range(last // rates.period), "driving again", console=console, transient=True):
+    for _ in followed(range(last // rates.period), "driving again", console):
         try:
             demanded = next(currents)
         except NotTold as gap:

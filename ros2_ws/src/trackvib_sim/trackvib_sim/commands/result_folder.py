@@ -22,6 +22,15 @@ def make_folder(path):
 
 
 @contextmanager
+def writing_to(folder):
+    """Turn an `OSError` of the block, a full disk for instance, into a `CommandError` that names the folder."""
+    try:
+        yield
+    except OSError as error:
+        raise CommandError(f"{str(folder)!r} cannot be written: {error.strerror or error}") from None
+
+
+@contextmanager
 def all_or_nothing(path):
     """Make a new folder, which is taken away again, with the parents made for it, if the block ends in an exception.
 
@@ -33,12 +42,11 @@ def all_or_nothing(path):
     new = [folder for folder in (Path(path), *Path(path).parents) if not folder.exists()]
     folder = make_folder(path)
     try:
-        yield folder
-    except BaseException as error:
+        with writing_to(folder):
+            yield folder
+    except BaseException:
         shutil.rmtree(folder, ignore_errors=True)
         for parent in new[1:]:
             with suppress(OSError):  # something else lies there by now
                 parent.rmdir()
-        if isinstance(error, OSError):
-            raise CommandError(f"{str(folder)!r} cannot be written: {error.strerror or error}") from None
         raise

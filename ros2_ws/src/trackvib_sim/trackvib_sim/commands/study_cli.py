@@ -6,7 +6,7 @@ from contextlib import contextmanager
 import click
 
 from ..road.iso8608 import CLASSES
-from .option_types import FiniteRange, Several
+from .option_types import INTERRUPTED, FiniteRange, Several
 
 SCENARIOS = ("e10", "c20", "run_up", "bump")  # those of studies.controlled, which takes long to import
 
@@ -28,7 +28,7 @@ def _ends_in_one_line(out):
         sys.exit(1)
     except KeyboardInterrupt:
         click.echo(f"interrupted; finished runs are kept in {out}, the same command goes on from there", err=True)
-        sys.exit(130)
+        sys.exit(INTERRUPTED)
 
 
 _VEHICLE = click.option("--vehicle", type=click.Path(dir_okay=False), default=None,

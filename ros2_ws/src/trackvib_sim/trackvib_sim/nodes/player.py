@@ -22,7 +22,7 @@ from .run_control import RunControl
 from .topics import CLOCK
 
 PARAMETERS = (
-    Parameter("bag", "", "Folder of the bag."),
+    Parameter("bag", "", "Folder of the bag, or one .mcap file."),
     Parameter("rate", 1.0, "Time of the bag per wall time.", "", 0.01, 100.0),
     Parameter("start", 0.0, "Where to begin, counted from the bag's first message.", "s", 0.0, 1e6),
     Parameter("end", 0.0, "Where to end, counted likewise; 0 for the bag's last message.", "s", 0.0, 1e6),
@@ -46,6 +46,8 @@ class PlayerNode(LoopNode):
         super().__init__("player", PARAMETERS)
         self._control = RunControl(self, lambda: self._time)
         try:
+            if not self.settings["bag"]:
+                raise ParameterError("player: parameter 'bag' is empty, accepted is the place of a bag")
             self._reader = open_bag(self.settings["bag"])
         except BagError as error:
             raise NodeError(str(error)) from None
@@ -61,7 +63,8 @@ class PlayerNode(LoopNode):
 
     def run(self):
         """Wait until somebody listens, then play until the end or a stop."""
-        self.get_logger().info(f"waiting for somebody who listens to {', '.join(sorted(self._outputs))}")
+        names = sorted(publisher.topic_name for publisher in self._outputs.values())  # as remapped
+        self.get_logger().info(f"waiting for somebody who listens to {', '.join(names)}")
         gathering = Gathering(self._listeners)
         self.spin_until(gathering.complete)
         while not self.stopping():

@@ -8,7 +8,6 @@ from datetime import datetime
 from builtin_interfaces.msg import Time
 from mr_mount_controller.node_support import LATCHED_QOS, LoopNode, NodeError, run_node
 from mr_mount_controller.parameters import Parameter
-from rclpy.clock import Clock, ClockType
 from rclpy.serialization import deserialize_message
 
 from ..bags.provenance import write_parameters, write_versions
@@ -55,6 +54,7 @@ _FLUSH = 0.5  # s; a recorder that is killed loses this much and a look at most
 _LOOK = 0.5  # s between looks for further topics
 _NICE = 10
 _QUIET = 0.2  # s without a message after which nothing more is expected at the end
+_LAST = 2.0  # s that the end takes at most, should messages never cease; all that had arrived is taken long before
 
 
 class RecorderNode(LoopNode):
@@ -76,8 +76,7 @@ class RecorderNode(LoopNode):
         self._undescribed = False  # whether there may be more
         self._times = Timekeeping()
         self._recorded = self.create_publisher(Time, topics.RECORDED, LATCHED_QOS)
-        self._received = 0
-        self.create_timer(_FLUSH, self._flush, clock=Clock(clock_type=ClockType.STEADY_TIME))
+        self._received, self._failure = 0, None
 
     def run(self):
         """Make the bag, wait for every topic, write down where it comes from, record until told to stop."""
@@ -94,11 +93,12 @@ class RecorderNode(LoopNode):
         if self._bag is None:
             return
         try:
-            last = time.monotonic()
-            while time.monotonic() - last < _QUIET:
+            last = now = time.monotonic()
+            end = now + _LAST
+            while now < min(last + _QUIET, end):
                 self.spin_once(_QUIET / 10)
-                if self._take_all():
-                    last = time.monotonic()
+                taken, now = self._take_all(), time.monotonic()
+                last = now if taken else last
             self._complete()
         except OSError as error:
             raise self._given_up(error) from None
@@ -112,14 +112,18 @@ class RecorderNode(LoopNode):
         self.spin_until(lambda: all(subscription.get_publisher_count() for subscription in self._taken))
         self._report()  # whoever waits for a recorder starts with this
         self.get_logger().info(f"recording {len(self._topics)} topics to {self._bag.path}")
-        looked = time.monotonic()
+        looked = flushed = time.monotonic()
         while not self.stopping():
             if self._take_all():
                 self._report()
-            if self.settings["pattern"] and time.monotonic() - looked > _LOOK:
+            now = time.monotonic()
+            if now - flushed > _FLUSH:
+                self._bag.flush()
+                flushed = now
+            if self.settings["pattern"] and now - looked > _LOOK:
                 for name in self._take_up(self._choice.present()):
                     self.get_logger().info(f"{name} has appeared and is recorded, too")
-                looked = time.monotonic()
+                looked = now
             if self._undescribed:
                 self._describe(self._topics)
             time.sleep(_REST)
@@ -188,26 +192,31 @@ class RecorderNode(LoopNode):
     def _announce(self, topic):
         self._bag.add_topic(topic.name, topic.type_name, topic.qos, topic.type_hash)
 
-    def _flush(self):
-        if self._bag is not None:
-            self._bag.flush()
-
     def _report(self):
         seconds, nanoseconds = divmod(self._times.complete_until, NANO)
         self._recorded.publish(Time(sec=seconds, nanosec=nanoseconds))
 
     def _take_all(self):
-        """Write all that has arrived; returns whether anything had."""
+        """Write all that has arrived, for a while at most; returns whether anything had."""
         start = before = self._received
+        end = time.monotonic() + _FLUSH
         while True:
             self.spin_once(0.0)
-            if self._received == before:
-                return before > start
+            if self._failure is not None:
+                raise self._failure
+            if self._received == before or time.monotonic() > end:
+                return self._received > start
             before = self._received
 
     def _on_message(self, topic, data):
-        if self._bag is None:
+        if self._bag is None or self._failure is not None:
             return
+        try:
+            self._write(topic, data)
+        except (OSError, NodeError) as error:  # raised later: what leaves a callback is logged at length
+            self._failure = error
+
+    def _write(self, topic, data):
         time_in_bag = self._times.add(topic.name, topic.type_name, topic.stamped, data)
         if time_in_bag is None:
             self._begin_epoch()

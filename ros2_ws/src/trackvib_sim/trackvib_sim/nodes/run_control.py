@@ -60,27 +60,27 @@ class RunControl:
 
     def _pause(self, _request, response):
         self._paused = True
-        return self._answer(response, "paused")
+        return self._answer(response, "paused at")
 
     def _resume(self, _request, response):
         self._paused, self._steps = False, 0
-        return self._answer(response, "resumed")
+        return self._answer(response, "resumed at")
 
     def _step(self, _request, response):
         if not self._paused:
             response.success, response.message = False, "a run that is not paused takes no single steps"
             return response
         self._steps += 1
-        return self._answer(response, "one period further")
+        return self._answer(response, "one period on, from")
 
     def _reset(self, _request, response):
         if self._phase == "waiting" and self._time() == 0:
             response.success, response.message = False, "the run has not begun"
             return response
         self.reset_wanted = True
-        return self._answer(response, "reset")
+        return self._answer(response, "reset at")
 
     def _answer(self, response, done):
-        response.success, response.message = True, f"{done} at t = {self._time() / NANO:.3f} s"
+        response.success, response.message = True, f"{done} t = {self._time() / NANO:.3f} s"
         self._logger.info(response.message)
         return response

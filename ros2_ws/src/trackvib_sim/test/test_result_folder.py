@@ -1,0 +1,31 @@
+"""The folder for what a command leaves: new, whole or not at all."""
+
+import errno
+
+import pytest
+from trackvib_sim.commands.result_folder import CommandError, all_or_nothing
+
+pytestmark = pytest.mark.property
+
+
+def test_what_was_made_stays(tmp_path):
+    """With all parents, and nobody writes there again."""
+    with all_or_nothing(tmp_path / "a" / "b") as folder:
+        (folder / "result").write_text("1")
+    assert (tmp_path / "a" / "b" / "result").read_text() == "1"
+    with pytest.raises(CommandError, match="exists already"), all_or_nothing(tmp_path / "a" / "b"):
+        pass
+    assert (tmp_path / "a" / "b" / "result").read_text() == "1"
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt(), ValueError("no"), OSError(errno.ENOSPC, "No space left")])
+def test_nothing_half_done_is_left(tmp_path, error):
+    """Nor the parents that were made for it; what else is there stays. A full disk is told with the folder's name."""
+    (tmp_path / "old").mkdir()
+    for place in (tmp_path / "new" / "b", tmp_path / "old" / "b"):
+        with pytest.raises((type(error), CommandError)) as raised, all_or_nothing(place) as folder:
+            (folder / "part").write_text("1")
+            raise error
+        if isinstance(error, OSError):
+            assert str(raised.value) == f"'{place}' cannot be written: No space left"
+    assert [each.name for each in tmp_path.iterdir()] == ["old"] and not any((tmp_path / "old").iterdir())
