@@ -189,7 +189,7 @@ def test_interrupted_at_any_moment(start_cli, recorded_run):
     while "zstandard" not in Path(f"/proc/{replay.pid}/maps").read_text():  # needed first by what a verb does
         assert replay.running
     replay.signal(signal.SIGINT)
-    assert replay.wait() == 130
+    assert replay.wait() in (130, -signal.SIGINT)  # Python at times ends itself by the signal; to shells both are 130
     assert replay.output == "interrupted\n"
 
 
