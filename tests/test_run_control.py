@@ -77,7 +77,8 @@ def test_reset_gives_the_first_run_again(start_node, loop, observer, tmp_path):
         assert 500 <= len(cut) < len(whole) == 1500
         assert cut == whole[: len(cut)], topic
     drive = read_recording(second)
-    assert drive.counts["/odometry"] == 151 and drive.counts["/vehicle_description"] == 1
+    # a simulator that waits for road tells again where it is
+    assert len(set(drive.odometry.stamp.tolist())) == 151 and drive.counts["/vehicle_description"] == 1
     assert drive.counts["/road_profile"] > 10
     assert drive.provenance["parameters of /controller"]["law"] == "skyhook"
 
