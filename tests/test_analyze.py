@@ -1,8 +1,29 @@
-"""`trackvib analyze` with bad input, as a real process: one line that names what is wrong, and nothing is left."""
+"""`trackvib analyze` as a real process: bad input in one line that names it, and bags that do not tell everything."""
 
+import json
+
+import numpy as np
 import pytest
+from mr_mount_controller.node_support import LOOP_WRITER_QOS
+from trackvib_sim.bags.qos import qos_record
+from trackvib_sim.bags.writing import BagWriter
+from trackvib_sim.nodes.messages import ImuMessage
 
 pytestmark = pytest.mark.system
+
+
+@pytest.fixture
+def bag(tmp_path):
+    """A bag of 4 s of noise in both Imu, and of nothing else."""
+    writer, random = BagWriter(tmp_path / "drive"), np.random.default_rng(1)
+    sensors = {f"/{end}/imu": ImuMessage(f"{end}_imu_link") for end in ("chassis", "powertrain")}
+    for topic in sensors:
+        writer.add_topic(topic, "sensor_msgs/msg/Imu", [qos_record(LOOP_WRITER_QOS)], "RIHS01_0")
+    for stamp in range(1_000_000, 4_001_000_000, 1_000_000):
+        for topic, imu in sensors.items():
+            writer.write(topic, stamp, imu.fill(stamp, random.normal(size=3), (0.0, 0.0, 0.0)))
+    writer.close()
+    return tmp_path / "drive"
 
 
 @pytest.mark.parametrize(
@@ -11,14 +32,16 @@ pytestmark = pytest.mark.system
         (["missing", "--out", "new"], ["'missing' is not there"]),
         (["empty", "--out", "new"], ["'empty' holds no .mcap file"]),
         (["text.mcap", "--out", "new"], ["'text.mcap' cannot be read"]),
+        (["text.mcap", "empty", "empty/../text.mcap", "--out", "new"], ["'empty/../text.mcap' is given twice"]),
         (["empty", "--out", "empty"], ["'empty' exists already"]),
         (["empty", "--out", "text.mcap/new"], ["'text.mcap/new' cannot be made"]),
         (["empty", "--settle", "-1"], ["--settle", "-1"]),
+        (["empty", "--settle", "1.9"], ["--settle", "1.9 is not in the range 2.0<=x"]),
         ([], ["BAG..."]),
     ],
 )
 def test_bad_input_is_refused(start_cli, tmp_path, arguments, words):
-    """Bags that are none, folders that are there or cannot be, options out of range."""
+    """Bags that are none, or the same one; folders that are there or cannot be, options out of range."""
     (tmp_path / "empty").mkdir()
     (tmp_path / "text.mcap").write_text("no bag at all, but some text")
     before = sorted(tmp_path.iterdir())
@@ -27,3 +50,32 @@ def test_bad_input_is_refused(start_cli, tmp_path, arguments, words):
     output = " ".join(analyze.output.split())
     assert all(word in output for word in words) and "Traceback" not in output, output
     assert not (tmp_path / "new").exists() and set(before) <= set(tmp_path.iterdir())
+
+
+def test_a_bag_of_sensors_alone(start_cli, tmp_path, bag):
+    """What is not in it is said once; there are no numbers that are none, no empty tables, and no worries."""
+    analyze = start_cli("analyze", bag, "--out", "new")
+    assert analyze.wait() == 0, analyze.output
+    assert analyze.output.count("no odometry") == 1 and "nan" not in analyze.output
+    assert "acceleration, m/s²" in analyze.output
+    assert "known cause" not in analyze.output and "mounts: vertical travel" not in analyze.output
+    (found,) = json.loads((tmp_path / "new" / "numbers.json").read_text())["bags"]
+    assert found["loop"]["lost_chassis"] == 0 and found["loop"]["unanswered"] is None
+    assert "nan" not in (tmp_path / "new" / "numbers.csv").read_text()
+
+
+def test_a_cut_bag_counts_and_is_named(start_cli, bag):
+    """As far as it goes, and with the way to complete it."""
+    (file,) = bag.glob("*.mcap")
+    data = file.read_bytes()
+    file.write_bytes(data[: int(0.9 * len(data))])
+    analyze = start_cli("analyze", bag, "--out", "new")
+    assert analyze.wait() == 0, analyze.output
+    assert "was cut short" in analyze.output and "trackvib bag repair" in analyze.output
+
+
+def test_help_speaks_of_the_report(start_cli):
+    """And of the least settling time."""
+    analyze = start_cli("analyze", "--help")
+    assert analyze.wait() == 0
+    assert "HTML report" in analyze.output and "2 or more" in analyze.output

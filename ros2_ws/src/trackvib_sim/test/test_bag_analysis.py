@@ -47,6 +47,8 @@ def test_no_number_is_taken_across_a_gap():
     assert [(gap.begin, gap.length, gap.missing) for gap in gaps] == [(10.0, 2.001, 2000)]
     assert "chassis/imu: gaps: 1, in which 2000 samples are missing" in found.notes
     assert np.isnan(found.history.rms["chassis"][10:12]).all() and found.loop["lost_chassis"] == 2000
+    one = analyse(made_recording(np.delete(np.arange(1, 10_001), 5000)))
+    assert "chassis/imu: gaps: 1, in which 1 sample is missing" in one.notes
 
 
 @pytest.mark.property
@@ -75,9 +77,20 @@ def test_what_is_missing_is_said():
     assert (found.mounts, found.demand, found.lines, found.mount_energy) == ({}, {}, (), None)
     assert np.isnan([found.speed, found.engine_speed]).all() and np.isnan(found.history.current).all()
     for words in ("no odometry", "engine's speed", "no vehicle description", "no mount_state", "no coil_current"):
-        assert any(words in note for note in found.notes), words
+        assert sum(words in note for note in found.notes) == 1, words
+    assert (found.loop["unanswered"], found.loop["answered_twice"]) == (None, None)
+    early = whole._replace(odometry=type(whole.odometry)(*(column[:100] for column in whole.odometry)))
+    assert any("no odometry after the settling time" in note for note in analyse(early).notes)
     unreadable = analyse(whole._replace(vehicle="hull: 1"))
     assert unreadable.lines == () and any("vehicle description" in note for note in unreadable.notes)
+
+
+@pytest.mark.property
+def test_a_bag_that_was_cut_short_is_noted():
+    """First of all, for all numbers are of a part of the run."""
+    whole = made_recording(np.arange(1, 5001))
+    assert analyse(whole).notes == ()
+    assert "was cut short" in analyse(whole._replace(complete=False)).notes[0]
 
 
 @pytest.mark.analytic
@@ -89,13 +102,16 @@ def test_settling_follows_from_the_parameters_in_the_bag(speed, seconds):
 
 @pytest.mark.property
 def test_recordings_that_cannot_be_measured_are_refused():
-    """Too short, too short between gaps, of two rates, or with a stamp that is none."""
+    """Too short, too short between gaps, settling for less than filters do, of two rates, with a stamp that is none."""
     with pytest.raises(TooShort, match="2.499 s long, RMS values need 3 s"):
         analyse(made_recording(np.arange(1, 2500)))
     holes = np.setdiff1d(np.arange(1, 10_001), np.arange(0, 10_001, 2000))
     with pytest.raises(TooShort, match="9.999 s long.*without a gap"):
         analyse(made_recording(holes))
     whole = made_recording(np.arange(1, 5001))
+    for settle in (1.9, float("nan")):
+        with pytest.raises(ValueError, match=f"settle is {settle} s, must be 2 s or more"):
+            analyse(whole, settle)
     slow = whole.powertrain._replace(stamp=whole.powertrain.stamp * 2)
     with pytest.raises(ValueError, match=r"every 0\.001 s and powertrain/imu every 0\.002 s, must be the same"):
         analyse(whole._replace(powertrain=slow))

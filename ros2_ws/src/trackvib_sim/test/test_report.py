@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from plotly.offline import get_plotlyjs
 from trackvib_sim.analysis.bag_analysis import analyse
-from trackvib_sim.analysis.report import facts
+from trackvib_sim.analysis.report import bag_figures, facts
 from trackvib_sim.analysis.report.excerpt import excerpt
 from trackvib_sim.analysis.report.page import write_report
 
@@ -105,6 +105,16 @@ def test_report_of_sensors_alone(report):
     for absent in ("no odometry in the bag", "no mount_state in the bag", "no coil_current in the bag", "not told"):
         assert absent in words
     assert "Numbers" in words and "force over deflection" not in words
+    assert "bag, 4 s" in words and not re.search(r"\bnan\b|unanswered", words)
+    assert words.count("no odometry") == 1
+
+
+@pytest.mark.property
+def test_levels_along_a_bag_without_speed():
+    """Of a long bag the levels are drawn, without an empty figure of the speed."""
+    whole = made_recording(np.arange(1, 31_001))
+    for recording, drawn in ((whole, 3), (whole._replace(odometry=None), 2)):
+        assert len(bag_figures.levels(excerpt(recording, analyse(recording))).data) == drawn
 
 
 @pytest.mark.property
@@ -132,6 +142,31 @@ def test_loop_health_stands_at_the_top(report, told, words):
 
 
 @pytest.mark.property
+def test_without_answers_in_the_bag_none_is_claimed(report):
+    """Neither that every sample was answered nor that one was not."""
+    words = _words(report(made_recording(np.arange(1, 4001))._replace(answers=None)))
+    assert "Loop: nothing lost, nothing late. no coil_current in the bag" in words and "unanswered" not in words
+
+
+@pytest.mark.analytic
+def test_heat_in_the_mounts_is_that_of_their_samples(report):
+    """5 W in each mount from 2 s on: gaps of the sensors, over which less counts, do not change it."""
+    time = np.arange(1, 10_001)
+    whole = made_recording(time)
+    holed = made_recording(np.delete(time, slice(4999, 5249)))._replace(mounts=whole.mounts)
+    for recording in (whole, holed):
+        assert "dissipated in both mounts 80.0 J 10.0 W on average" in _words(report(recording))
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(("samples", "thinned"), [(8000, False), (8001, True)])
+def test_thinning_is_told_where_lines_are_thinned(report, samples, thinned):
+    """The caption of the histories speaks of long bags only below those of one."""
+    page = report(made_recording(np.arange(1, samples + 1)))
+    assert ("Of long bags the least" in _words(page)) == thinned
+
+
+@pytest.mark.property
 def test_reduction_is_that_of_the_sensors(report):
     """The powertrain with half the chassis's accelerations has 50 % less."""
     words = _words(report(made_recording(np.arange(1, 4001))))
@@ -145,7 +180,8 @@ def test_bags_are_compared_with_the_first(report):
     other = made_recording(np.arange(1, 4001), chassis=2.0 * one.chassis.specific_force)
     parameters = {**one.provenance, "parameters of /controller": {"law": "skyhook"}}
     words = _words(report(one, other._replace(path=Path("runs/two/bag"), provenance=parameters)))
-    assert words.count("(+100.0 %)") == 3 * 6 + 8
+    assert words.count("(+100.0 %)") == 5 * 6 + 8 + 6 * 6  # quantities with totals, and lines
+    assert words.count("crest factor, weighted") == 1 and "(–)" not in words
     assert "controller law not told skyhook" in words and "simulator speed 10.0 10.0" not in words
     assert "In brackets the difference to one." in words
 

@@ -34,6 +34,14 @@ def test_losses_are_counted_wherever_they_are():
     assert counted == {"samples": 100, "lost_chassis": 10, "lost_powertrain": 3, "unanswered": 1, "answered_twice": 1}
 
 
+@pytest.mark.property
+def test_answers_that_are_not_in_the_bag_are_not_counted():
+    """Nobody knows then whether there were any."""
+    whole = list(range(1, 101))
+    counted = losses(drive(whole, whole, whole, 0.1)._replace(answers=None))
+    assert counted["lost_chassis"] == 0 and (counted["unanswered"], counted["answered_twice"]) == (None, None)
+
+
 @pytest.mark.analytic
 @pytest.mark.parametrize(("speed", "seconds"), [(0.0, 2.0), (5.0, 3.7), (10.0, 2.0), (1.0, 18.5)])
 def test_settling_ends_when_the_rear_wheels_are_on_the_roughness(speed, seconds):

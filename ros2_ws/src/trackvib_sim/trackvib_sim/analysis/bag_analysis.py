@@ -32,6 +32,10 @@ TOPICS = {
     "answers": "coil_current",
     "odometry": "odometry",
 }
+_WITHOUT = {  # what cannot be had of a bag without these topics
+    "mounts": "no numbers of the mounts",
+    "answers": "no demanded currents, and nobody knows which samples were answered",
+}
 
 
 def settling_of(recording):
@@ -54,7 +58,7 @@ def analyse(recording, settle=None, follow=lambda done, total: None):
     ----------
     recording : Recording
     settle : float, optional
-        Time from the start that does not count, s; by default `settling_of`.
+        Time from the start that does not count, `SHORTEST_SETTLING` or more, s; by default `settling_of`.
     follow : callable
         Is told now and then how many samples of how many have been looked at.
 
@@ -63,9 +67,11 @@ def analyse(recording, settle=None, follow=lambda done, total: None):
     TooShort
         No stretch without gaps leaves a second to be measured.
     ValueError
-        The sensors differ in their rates, or their stamps cannot be a time base.
+        The settling time is too short, the sensors differ in their rates, or their stamps cannot be a time base.
     """
     settle = settling_of(recording) if settle is None else settle
+    if not settle >= SHORTEST_SETTLING:  # nan is refused, too
+        raise ValueError(f"settle is {settle:g} s, must be {SHORTEST_SETTLING:g} s or more")
     begin, loop = start_of(recording), loop_health(recording)
     timings = {
         end: timing(getattr(recording, part)[0], begin)  # the first column of each is its stamps
@@ -157,9 +163,10 @@ def _speed(recording, settled):
 def _lines(recording, spectra, speed):
     """Return the engine's speed [r/min], the `Line`s, and why there are fewer."""
     why, engine_speed = [], _told(recording, "engine_speed").get("engine_speed", "nan")
-    engine_speed = float(engine_speed)
-    if recording.odometry is None:
-        why.append("no odometry in the bag: no speed, no levels of link passing")
+    engine_speed, mean, deviation = float(engine_speed), float(speed.mean[0]), float(speed.deviation[0])
+    if isnan(mean):
+        where = "in the bag" if recording.odometry is None else "after the settling time"
+        why.append(f"no odometry {where}: no speed, no levels of link passing")
     if isnan(engine_speed):
         why.append("the bag does not tell the engine's speed: no levels of its orders")
     try:
@@ -167,7 +174,6 @@ def _lines(recording, spectra, speed):
     except VehicleFileError as error:
         reason = str(error).splitlines()[0] if recording.vehicle else "no vehicle description in the bag"
         return engine_speed, (), [*why, f"{reason}: no levels of link passing and engine orders"]
-    mean, deviation = float(speed.mean[0]), float(speed.deviation[0])
     lines = known_lines(spectra, mean, deviation, vehicle.tracks.pitch, engine_speed, vehicle.engine.orders)
     return engine_speed, lines, why
 
@@ -190,14 +196,17 @@ def _history(recording, parts, levels):
 def _notes(recording, timings, rate):
     """Return what was found wrong, in sentences."""
     notes = []
+    if not recording.complete:
+        notes.append("the bag was cut short; what there is of it counts (`trackvib bag repair` completes it)")
     for end, (found, _) in timings.items():
+        missing = "1 sample is" if found.missing == 1 else f"{found.missing} samples are"
         counts = {
-            f"gaps: {found.gap_count}, in which {found.missing} samples are missing": found.gap_count,
+            f"gaps: {found.gap_count}, in which {missing} missing": found.gap_count,
             f"samples within half a period of the one before: {found.repeated}": found.repeated,
             f"samples older than the one before: {found.backward}; nothing counts from there on": found.backward,
         }
         notes += [f"{end}: {text}" for text, count in counts.items() if count]
     if rate < LEAST_RATE:
         notes.append(f"sampling rate is {rate:g} Hz, below {LEAST_RATE:g} Hz: no weighted values of ISO 2631-1")
-    notes += [f"no {end} in the bag" for part, end in TOPICS.items() if getattr(recording, part) is None]
-    return notes
+    lacking = (part for part in _WITHOUT if getattr(recording, part) is None)
+    return notes + [f"no {TOPICS[part]} in the bag: {_WITHOUT[part]}" for part in lacking]

@@ -145,7 +145,7 @@ class Analysis:
     mounts: dict  # side -> MountNumbers; empty without mount states
     demand: dict  # side -> Current that the controller asked for; empty without answers
     mount_energy: dict | None = _number("J")  # the simulator's own account of the whole run, if it told one
-    loop: dict  # what was lost, and what the simulator told last
+    loop: dict  # what was lost (None where the bag cannot tell), and what the simulator told last
     messages: dict  # topic -> count
     timing: dict  # end of topic -> Timing
     spectra: Spectra

@@ -61,13 +61,16 @@ def start_of(recording):
 def losses(recording):
     """Count, from stamps alone, what is missing between the start and the last sample that anything speaks of.
 
+    Of answers that are not in the bag nothing is counted: None.
+
     Raises
     ------
     ValueError
         The stamps are no time base: they reach over much more time than samples can fill.
     """
     chassis, powertrain = recording.chassis.stamp, recording.powertrain.stamp
-    answered = np.empty(0, np.int64) if recording.answers is None else recording.answers.sample_stamp
+    nobody = recording.answers is None
+    answered = np.empty(0, np.int64) if nobody else recording.answers.sample_stamp
     begin, period = start_of(recording), period_of(chassis)
     told = round(float(recording.diagnostics.get("time", 0.0)) * NANO)  # by the simulator at its end
     last = max(told, *(int(stamp.max()) for stamp in (chassis, powertrain, answered) if stamp.size))
@@ -86,8 +89,8 @@ def losses(recording):
         "samples": expected,
         "lost_chassis": expected - counted["chassis"],
         "lost_powertrain": expected - counted["powertrain"],
-        "unanswered": expected - counted["answered"],
-        "answered_twice": len(answered) - counted["answered"],
+        "unanswered": None if nobody else expected - counted["answered"],
+        "answered_twice": None if nobody else len(answered) - counted["answered"],
     }
 
 

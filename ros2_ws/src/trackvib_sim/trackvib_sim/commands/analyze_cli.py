@@ -4,18 +4,23 @@ import sys
 
 import click
 
+from ..analysis.settling import SHORTEST_SETTLING
 from .option_types import FiniteRange
 
 
 @click.command()
 @click.argument("bags", nargs=-1, required=True, metavar="BAG...", type=click.Path())
-@click.option("--settle", type=FiniteRange(0.0, 1e6), default=None, metavar="S",
-              help="Time from the start of each bag that does not count, in s; 2 s never do.  [default: until the "
-                   "recorded run has settled, by its parameters]")
+@click.option("--settle", type=FiniteRange(SHORTEST_SETTLING, 1e6), default=None, metavar="S",
+              help=f"Time from the start of each bag that does not count, in s, {SHORTEST_SETTLING:g} or more: filters "
+                   "settle, too.  [default: until the recorded run has settled, by its parameters]")
 @click.option("--out", type=click.Path(file_okay=False), default=None,
               help="Folder to make for the results.  [default: analyses/<time>]")
 def analyze(bags, settle, out):
-    """Turn bags into numbers: RMS, ISO 2631-1, spectra, mounts, currents, as JSON, CSV and Parquet."""
+    """Turn bags into an HTML report and numbers.
+
+    RMS, ISO 2631-1, spectra, mounts and currents: report.html for the eye (of several bags a comparison), JSON, CSV and
+    Parquet for programs.
+    """
     from ..bags.writing import BagError  # imported late: --help need not wait for it
     from .bag_evaluation import perform
     from .result_folder import CommandError

@@ -1,6 +1,7 @@
 """`trackvib analyze`: bags are read and measured one after the other; tables on the screen, files in one new folder."""
 
 from datetime import datetime
+from os.path import realpath
 from pathlib import Path
 
 from rich.console import Console
@@ -23,8 +24,10 @@ def perform(bags, settle, out):
     Raises
     ------
     BagError, CommandError
-        A bag cannot be read or is too short, or the folder exists or cannot be written. No folder is left then.
+        A bag is given twice, cannot be read or is too short, or the folder exists or cannot be written. No folder is
+        left then.
     """
+    _require_different(bags)
     console = Console(highlight=False)
     folder = out or Path("analyses") / f"{datetime.now():%Y%m%dT%H%M%S}"
     with all_or_nothing(folder) as folder:
@@ -44,9 +47,19 @@ def perform(bags, settle, out):
         console.print(f"bag {number}: {analysis.bag}: {told}", soft_wrap=True)
         for note in analysis.notes:
             console.print(f"  {note}", soft_wrap=True)
-    for table in (_levels, _lines, _mounts):
-        console.print(table(analyses))
+    for table in (_levels(analyses), _lines(analyses), _mounts(analyses)):
+        if table.row_count:
+            console.print(table)
     console.print(f"left in {folder}: {', '.join(sorted(each.name for each in folder.iterdir()))}", soft_wrap=True)
+
+
+def _require_different(bags):
+    """Refuse a bag that is given twice: the tables tell bags apart by their paths."""
+    seen = set()
+    for bag in bags:
+        if (path := realpath(bag)) in seen:
+            raise CommandError(f"bag {bag!r} is given twice")
+        seen.add(path)
 
 
 def _progress(console):
@@ -63,8 +76,8 @@ def _levels(analyses):
     table = _table("acceleration, m/s²: band-limited; weighted by ISO 2631-1 (VDV in m/s^1.75)", ("",))
     for name in ("RMS", "peak", "weighted", "crest", "MTVV", "VDV"):
         table.add_column(name, justify="right")
-    for analysis in _sections(table, analyses):
-        for sensor, axes in analysis.sensors.items():
+    for sensors in _sections(table, analyses, "sensors"):
+        for sensor, axes in sensors.items():
             for axis, n in axes.items():
                 weighted = f"{WEIGHTINGS[AXES.index(axis)]} {n.rms_weighted:.3f}"
                 rest = (f"{value:.3f}" for value in (n.crest_factor, n.mtvv, n.vdv))
@@ -76,8 +89,8 @@ def _lines(analyses):
     table = _table("RMS about lines with a known cause, m/s²", ("", "Hz", ""))
     for axis in AXES:
         table.add_column(axis, justify="right")
-    for analysis in _sections(table, analyses):
-        for line in analysis.lines:
+    for lines in _sections(table, analyses, "lines"):
+        for line in lines:
             names = (line.name, f"{line.frequency:.1f}")
             for sensor, axes in line.rms.items():
                 table.add_row(*names, sensor, *(f"{level:.3f}" for level in axes.values()))
@@ -87,25 +100,26 @@ def _lines(analyses):
 
 def _mounts(analyses):
     table = _table("mounts: vertical travel (mm) and force (kN) about their means, heat, current (A)", ("",))
-    for name in ("travel", "peak", "force", "peak", "heat, J", "mean", "least", "most"):
+    for name in ("travel", "peak", "force", "peak", "heat, W", "mean", "least", "most"):
         table.add_column(name, justify="right")
-    for analysis in _sections(table, analyses):
-        for side, mount in analysis.mounts.items():
+    for mounts in _sections(table, analyses, "mounts"):
+        for side, mount in mounts.items():
             z, current = mount.axes["z"], mount.current
             lengths, forces = (z.travel_rms, z.travel_peak), (z.force_rms, z.force_peak)
-            numbers = (*(1e3 * each for each in lengths), *(1e-3 * each for each in forces), mount.energy_dissipated,
+            numbers = (*(1e3 * each for each in lengths), *(1e-3 * each for each in forces), mount.power_dissipated,
                        current.mean, current.least, current.greatest)  # fmt: skip
             table.add_row(side, *(f"{each:.2f}" for each in numbers))
     return table
 
 
-def _sections(table, analyses):
-    """Iterate over some analyses, of which each gets a part of a table, with its number where there are several."""
+def _sections(table, analyses, name):
+    """Iterate over what some analyses have under a name; each gets a part of a table, numbered if there are several."""
     for number, analysis in enumerate(analyses, 1):
-        table.add_section()
-        if len(analyses) > 1:
-            table.add_row(f"bag {number}", style="bold")
-        yield analysis
+        if found := getattr(analysis, name):
+            table.add_section()
+            if len(analyses) > 1:
+                table.add_row(f"bag {number}", style="bold")
+            yield found
 
 
 def _table(title, words):

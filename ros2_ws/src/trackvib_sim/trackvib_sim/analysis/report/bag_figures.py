@@ -1,5 +1,6 @@
 """The figures about one bag: a function each, from its `Excerpt`."""
 
+import numpy as np
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 
@@ -10,9 +11,9 @@ from .figure_style import (
     AXIS_NAMES,
     SENSOR_COLOURS,
     SIDE_COLOURS,
+    coherence,
     density,
     line,
-    over_frequency,
     ratio,
     settling,
     styled,
@@ -36,18 +37,21 @@ def histories(excerpt):
 
 
 def levels(excerpt):
-    """RMS of the vertical and the speed in equal parts of the bag; None for a short bag."""
+    """RMS of the vertical and, if it is known, the speed in equal parts of the bag; None for a short bag."""
     history = excerpt.analysis.history
     if len(history.time) < LONG:
         return None
-    figure = make_subplots(rows=2, cols=1, shared_xaxes=True, vertical_spacing=0.05, row_heights=(0.65, 0.35))
+    rows = 2 if np.isfinite(history.speed).any() else 1
+    heights = (0.65, 0.35)[:rows]
+    figure = make_subplots(rows=rows, cols=1, shared_xaxes=True, vertical_spacing=0.05, row_heights=heights)
     for sensor in SENSORS:
         points = history.time, history.rms[sensor][:, AXES.index("z")]
         figure.add_trace(line(points, sensor, SENSOR_COLOURS[sensor]), row=1, col=1)
-    figure.add_trace(line((history.time, history.speed), "speed", "#808080"), row=2, col=1)
     figure.update_yaxes(title_text="RMS vertical z, m/s²", rangemode="tozero", row=1, col=1)
-    figure.update_yaxes(title_text="speed, m/s", row=2, col=1)
-    figure.update_xaxes(title_text="time, s", row=2, col=1)
+    if rows == 2:
+        figure.add_trace(line((history.time, history.speed), "speed", "#808080"), row=2, col=1)
+        figure.update_yaxes(title_text="speed, m/s", row=2, col=1)
+    figure.update_xaxes(title_text="time, s", row=rows, col=1)
     return settling(styled(figure, 420), excerpt.analysis)
 
 
@@ -77,9 +81,10 @@ def transmission(excerpt):
             for column, axis in enumerate(AXES)
         ]
 
-    alike = over_frequency(traces(found.coherence), excerpt.analysis, "Coherence", "coherence, -")
-    alike.update_yaxes(range=(0.0, 1.02))
-    return [ratio(traces(found.transmissibility), excerpt.analysis, "Transmissibility"), alike]
+    return [
+        ratio(traces(found.transmissibility), excerpt.analysis, "Transmissibility"),
+        coherence(traces(found.coherence), excerpt.analysis, "Coherence"),
+    ]
 
 
 def mount_loops(excerpt):

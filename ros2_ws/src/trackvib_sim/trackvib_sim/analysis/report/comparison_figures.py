@@ -4,7 +4,18 @@ import plotly.graph_objects as go
 
 from ..bag_numbers import SIDES
 from ..summary import AXES, SENSORS
-from .figure_style import AXIS_NAMES, BAG_COLOURS, BAG_DASHES, density, line, plain, ratio, settling, styled
+from .figure_style import (
+    AXIS_NAMES,
+    BAG_COLOURS,
+    BAG_DASHES,
+    coherence,
+    density,
+    line,
+    plain,
+    ratio,
+    settling,
+    styled,
+)
 
 
 def _look(index):
@@ -48,14 +59,15 @@ def spectra(excerpts, names):
     ]
 
 
-def transmissibilities(excerpts, names):
-    """Transmissibility from chassis to powertrain: a figure an axis."""
+def transmission(excerpts, names):
+    """Transmissibility from chassis to powertrain, and their coherence: a figure an axis each."""
     return [
-        ratio(
-            _spectrum(excerpts, names, column, lambda found: found.transmissibility),
+        kind(
+            _spectrum(excerpts, names, column, lambda found, v=values: getattr(found, v)),
             excerpts[0].analysis,
-            AXIS_NAMES[axis],
+            f"{values.capitalize()}, {AXIS_NAMES[axis]}",
         )
+        for kind, values in ((ratio, "transmissibility"), (coherence, "coherence"))
         for column, axis in enumerate(AXES)
     ]
 

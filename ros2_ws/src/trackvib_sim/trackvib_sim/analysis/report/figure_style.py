@@ -80,6 +80,11 @@ def ratio(traces, analysis, title):
     return figure.update_yaxes(type="log", range=(log10(0.9 * low), log10(1.1 * high)), tickvals=ONE_TWO_FIVE)
 
 
+def coherence(traces, analysis, title):
+    """Return a figure of coherences."""
+    return over_frequency(traces, analysis, title, "coherence, -").update_yaxes(range=(0.0, 1.02))
+
+
 def _mark(figure, marked):
     kind, _, number = marked.name.rpartition(" ")
     passing = kind == "link passing"
@@ -97,8 +102,4 @@ def _mark(figure, marked):
 
 def settling(figure, analysis):
     """Shade the settling time of a figure over time."""
-    if analysis.settle > 0.0:
-        figure.add_vrect(x0=0.0, x1=analysis.settle, fillcolor="rgba(128,128,128,0.15)", line_width=0, layer="below")
-    return figure
-
-
+    return figure.add_vrect(x0=0.0, x1=analysis.settle, fillcolor="rgba(128,128,128,0.15)", line_width=0, layer="below")

@@ -65,6 +65,7 @@ def _run(name, excerpt):
         "facts": facts.facts(excerpt),
         "notes": analysis.notes,
         "worries": tables.worries(analysis),
+        "sound": tables.sound(analysis),
         "provenance": excerpt.provenance,
         "messages": analysis.messages,
         "vehicle": excerpt.vehicle,

@@ -2,15 +2,17 @@
 
 from typing import NamedTuple
 
-from ..summary import AXES
-from . import bag_figures, comparison_figures, facts, spectrogram_figures, tables
+from ..summary import AXES, SENSORS
+from . import bag_figures, comparison_figures, comparison_tables, spectrogram_figures, tables
+from .differences import differing
+from .thinning import MOST
 
 _WEIGHTED = "Weighted: ISO 2631-1, Wk along z, Wd along x and y."
-_SPECIFIC_FORCE = "Specific force as recorded, +g along z at rest."
 _WELCH = (
     "Welch's method, windows of 1 s. Dotted: links entering the sprockets, v/p and multiples. "
     "Dashed: orders of the engine"
 )
+_STAMPS = "Stamps, not times of recording, are the time base."
 _LEVEL = "Level in dB re 1 (m/s²)²/Hz, windows of 0.5 s. Empty where samples are missing."
 
 
@@ -37,7 +39,7 @@ def of_one(excerpt):
         ),
         Section(
             "Histories",
-            f"{_SPECIFIC_FORCE} Of long bags the least and the greatest value of each part is drawn. Grey: settling.",
+            _about_histories([analysis], "settling"),
             [bag_figures.histories(excerpt), bag_figures.levels(excerpt)],
             [],
         ),
@@ -62,24 +64,33 @@ def of_one(excerpt):
             2,
         ),
         Section("Current", "", [bag_figures.currents(excerpt)], []),
-        Section("Stamps", "Stamps, not times of recording, are the time base.", [], [tables.timing(analysis)]),
+        Section("Stamps", _STAMPS, [], [tables.timing(analysis, "stamps of")]),
     ]
     return _filled(sections)
 
 
 def of_several(excerpts, names):
     """Return the `Section`s that set bags side by side, by their names."""
-    settings = tables.Table(("node", "parameter", *names), facts.differing(excerpts), 2 + len(names))
+    analyses = [excerpt.analysis for excerpt in excerpts]
+    settings = tables.Table(("node", "parameter", *names), differing(excerpts), 2 + len(names))
     sections = [
-        Section("What differs between the runs", "Parameters of the nodes.", [], [settings]),
+        Section(
+            "What differs between the runs", "Parameters of the nodes, entries of the vehicle files.", [], [settings]
+        ),
         Section(
             "Numbers",
             f"In brackets the difference to {names[0]}. {_WEIGHTED}",
             [comparison_figures.rms_bars(excerpts, names)],
-            tables.comparison([excerpt.analysis for excerpt in excerpts], names),
+            [*comparison_tables.accelerations(analyses, names), *comparison_tables.mounts(analyses, names)],
         ),
         Section("Spectra", f"{_WELCH}; both of {names[0]}.", comparison_figures.spectra(excerpts, names), [], 3),
-        Section("From chassis to powertrain", "", comparison_figures.transmissibilities(excerpts, names), [], 3),
+        Section("From chassis to powertrain", "", comparison_figures.transmission(excerpts, names), [], 3),
+        Section(
+            "Link passing and engine orders",
+            f"RMS in m/s² in a band about each line. In brackets the difference to {names[0]}.",
+            [],
+            comparison_tables.lines(analyses, names),
+        ),
         Section(
             "Spectrograms",
             f"Powertrain, vertical z. {_LEVEL}",
@@ -87,7 +98,12 @@ def of_several(excerpts, names):
             [],
             2,
         ),
-        Section("Histories", _SPECIFIC_FORCE, comparison_figures.histories(excerpts, names), []),
+        Section(
+            "Histories",
+            _about_histories(analyses, f"settling of {names[0]}"),
+            comparison_figures.histories(excerpts, names),
+            [],
+        ),
         Section(
             "Mounts",
             "Vertical, in the hull's axes: the second about each mount's greatest travel.",
@@ -96,6 +112,12 @@ def of_several(excerpts, names):
             2,
         ),
         Section("Current", "", comparison_figures.currents(excerpts, names), []),
+        Section(
+            "Stamps",
+            _STAMPS,
+            [],
+            [tables.timing(analysis, name) for analysis, name in zip(analyses, names, strict=True)],
+        ),
     ]
     return _filled(sections)
 
@@ -111,8 +133,18 @@ def tiles(analysis):
     ]
     if analysis.mounts:
         energy = sum(mount.energy_dissipated for mount in analysis.mounts.values())
-        told.append(("dissipated in both mounts", tables.number(energy, 3), "J", f"in {analysis.measured:.4g} s"))
+        power = sum(mount.power_dissipated for mount in analysis.mounts.values())
+        remark = f"{tables.number(power, 3)} W on average"
+        told.append(("dissipated in both mounts", tables.number(energy, 3), "J", remark))
     return told
+
+
+def _about_histories(analyses, grey):
+    """Return what the histories of some bags show, and what is grey there."""
+    words = ["Specific force as recorded, +g along z at rest."]
+    if any(analysis.timing[f"{sensor}/imu"].samples > MOST for analysis in analyses for sensor in SENSORS):
+        words.append("Of long bags the least and the greatest value of each part is drawn.")
+    return " ".join([*words, f"Grey: {grey}."])
 
 
 def _filled(sections):

@@ -1,13 +1,13 @@
 """The tables of a report as plain text: heads and rows of cells."""
 
 from dataclasses import fields
-from math import isfinite, nan
+from math import isfinite
 from typing import NamedTuple
 
-from ..bag_numbers import SIDES, AxisNumbers
+from ..bag_numbers import AxisNumbers
 from ..summary import AXES, SENSORS
 
-_WORDS = {
+WORDS = {
     "rms": "RMS, band-limited",
     "rms_raw": "RMS, raw, about the mean",
     "peak": "peak, band-limited",
@@ -17,7 +17,7 @@ _WORDS = {
     "vdv": "VDV",
     "mean": "mean",
 }
-_MOUNT = (  # words, unit, which number of a `MountNumbers`
+MOUNT = (  # words, unit, which number of a `MountNumbers`
     ("deflection, mean", "mm", lambda mount: 1e3 * mount.axes["z"].deflection_mean),
     ("travel, RMS", "mm", lambda mount: 1e3 * mount.axes["z"].travel_rms),
     ("travel, peak", "mm", lambda mount: 1e3 * mount.axes["z"].travel_peak),
@@ -31,7 +31,7 @@ _MOUNT = (  # words, unit, which number of a `MountNumbers`
     ("energy dissipated", "J", lambda mount: mount.energy_dissipated),
     ("power dissipated, mean", "W", lambda mount: mount.power_dissipated),
 )
-_UNITS = {field.name: field.metadata["unit"].replace("^1.75", "¹·⁷⁵") for field in fields(AxisNumbers)}
+UNITS = {field.name: field.metadata["unit"].replace("^1.75", "¹·⁷⁵") for field in fields(AxisNumbers)}
 _COLUMNS = tuple(f"{sensor} {axis}" for axis in AXES for sensor in SENSORS)
 _WORRYING = (
     "lost_chassis", "lost_powertrain", "unanswered", "answered_twice", "late", "duplicate", "early", "not_finite",
@@ -66,11 +66,11 @@ def accelerations(analysis):
     """Both sensors by axis, and by how much less the powertrain has."""
     head = ("", "unit", *_COLUMNS, *(f"change {axis}" for axis in AXES))
     rows = []
-    for name, words in _WORDS.items():
+    for name, words in WORDS.items():
         of = {sensor: [getattr(analysis.sensors[sensor][axis], name) for axis in AXES] for sensor in SENSORS}
         both = list(zip(of["chassis"], of["powertrain"], strict=True))
         changes = [change(p, c) if name != "mean" else "" for c, p in both]
-        rows.append((words, _UNITS[name], *(number(value) for pair in both for value in pair), *changes))
+        rows.append((words, UNITS[name], *(number(value) for pair in both for value in pair), *changes))
     return Table(head, rows, 2)
 
 
@@ -92,18 +92,18 @@ def lines(analysis):
 def mounts(analysis):
     """Both mounts, along the vertical; without mount states no rows."""
     found = list(analysis.mounts.values())
-    rows = [(words, unit, *(number(of(mount)) for mount in found)) for words, unit, of in _MOUNT] if found else []
+    rows = [(words, unit, *(number(of(mount)) for mount in found)) for words, unit, of in MOUNT] if found else []
     return Table(("vertical", "unit", *analysis.mounts), rows, 2)
 
 
 def loop(analysis):
     """What was counted in the loop, and what the simulator told last."""
-    return Table(("", ""), [(_spaced(key), str(value)) for key, value in analysis.loop.items()])
+    return Table(("", ""), [(_spaced(key), str(value)) for key, value in analysis.loop.items() if value is not None])
 
 
 def worries(analysis):
     """Return in words what was counted in the loop and should not have been, and what is not known of it."""
-    counted = {key: _whole(analysis.loop.get(key, 0)) for key in _WORRYING}
+    counted = {key: _whole(analysis.loop.get(key) or 0) for key in _WORRYING}
     found = [f"{count} {_spaced(key)}" for key, count in counted.items() if count]
     if analysis.loop.get("state") == "failed":
         found.append("the run failed")
@@ -112,8 +112,13 @@ def worries(analysis):
     return found
 
 
-def timing(analysis):
-    """What the stamps of each topic say."""
+def sound(analysis):
+    """Return in words what is known to be right in a loop without `worries`."""
+    return "nothing lost, nothing late" + (", every sample answered" if analysis.loop["unanswered"] == 0 else "")
+
+
+def timing(analysis, title):
+    """What the stamps of each topic say, under a title."""
     rows = [
         (
             topic, f"{each.samples}", number(1e3 * each.period), f"{each.first:.6g}", f"{each.last:.6g}",
@@ -121,7 +126,7 @@ def timing(analysis):
         )
         for topic, each in analysis.timing.items()
     ]  # fmt: skip
-    head = ("stamps of", "samples", "period, ms", "first, s", "last, s", "missing", "gaps", "repeated", "backward")
+    head = (title, "samples", "period, ms", "first, s", "last, s", "missing", "gaps", "repeated", "backward")
     return Table(head, rows)
 
 
@@ -133,36 +138,6 @@ def gaps(analysis, most=50):
         for gap in each.gaps[:most]
     ]
     return Table(("gap in", "after, s", "length, s", "samples missing"), rows)
-
-
-def comparison(analyses, names):
-    """Numbers of several bags with their differences to the first one's: a table a quantity, and one a mount."""
-    places = [(sensor, axis) for sensor in reversed(SENSORS) for axis in AXES]
-    found = []
-    for name in ("rms", "rms_weighted", "vdv", "peak"):
-        rows = [
-            (f"{sensor} {axis}", [getattr(analysis.sensors[sensor][axis], name) for analysis in analyses])
-            for sensor, axis in places
-        ]
-        if name == "rms_weighted":
-            for sensor in reversed(SENSORS):
-                rows.append((f"{sensor}, all axes", [analysis.total_weighted[sensor] for analysis in analyses]))
-        found.append(_compared(f"{_WORDS[name]}, {_UNITS[name]}", rows, names))
-    for side in SIDES:
-        mounts = [analysis.mounts.get(side) for analysis in analyses]
-        rows = [(f"{words}, {unit}", [of(mount) if mount else nan for mount in mounts]) for words, unit, of in _MOUNT]
-        found.append(_compared(f"{side} mount, vertical", rows, names))
-    return found
-
-
-def _compared(title, rows, names):
-    """Return a table of rows (words, numbers), those left out of which there are no numbers."""
-    cells = [
-        (words, number(values[0]), *(f"{number(value)} ({change(value, values[0])})" for value in values[1:]))
-        for words, values in rows
-        if any(map(isfinite, values))
-    ]
-    return Table((title, *names), cells)
 
 
 def _spaced(key):

@@ -1,0 +1,57 @@
+"""What differs between the runs of several bags, by the parameters and the vehicle files in them."""
+
+import yaml
+
+from ...bags.provenance import parameters
+from .facts import NOT_TOLD
+
+
+def differing(excerpts):
+    """Return rows (node, parameter, value in each bag) of what is not the same everywhere; vehicles come last."""
+    told = [
+        {node.rpartition("/")[2]: values for node, values in parameters(excerpt.provenance).items()}
+        for excerpt in excerpts
+    ]
+    keys = sorted({(node, name) for each in told for node, values in each.items() for name in values})
+    rows = [(node, name, *(each.get(node, {}).get(name, NOT_TOLD) for each in told)) for node, name in keys]
+    return [row for row in rows if len(set(row[2:])) > 1] + _of_vehicles([excerpt.vehicle for excerpt in excerpts])
+
+
+def _of_vehicles(texts):
+    """Return the rows of vehicle files; of those that cannot be read one row says so, and the others are compared."""
+    if len(set(texts)) == 1:
+        return []
+    files = [_entries(text) for text in texts]
+    rows = []
+    if None in files:
+        words = (
+            "there" if entries is not None else "not a YAML file with sections" if text else NOT_TOLD
+            for text, entries in zip(texts, files, strict=True)
+        )
+        rows.append(("vehicle", "file", *words))
+    for key in dict.fromkeys(key for entries in files if entries for key in entries):
+        values = [None if entries is None else entries.get(key, NOT_TOLD) for entries in files]
+        if len({value for value in values if value is not None}) > 1:
+            rows.append(("vehicle", key, *("–" if value is None else value for value in values)))
+    return rows
+
+
+def _entries(text):
+    """Return a vehicle file's entries as text by their flattened keys; None of a text that is none."""
+    try:
+        content = yaml.safe_load(text or "")
+        return dict(_flat(content)) if isinstance(content, dict) else None
+    except (yaml.YAMLError, ValueError, RecursionError):  # ValueErrors from impossible dates
+        return None
+
+
+def _flat(section, above=""):
+    """Iterate over a section's entries; notes and sources of an item are left out, they change no run."""
+    for name, item in section.items():
+        key = f"{above}{name}"
+        if not isinstance(item, dict):
+            yield key, str(item)
+        elif "value" in item:
+            yield key, " ".join(str(item[part]) for part in ("value", "unit") if part in item)
+        else:
+            yield from _flat(item, f"{key}.")
