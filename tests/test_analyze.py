@@ -32,7 +32,7 @@ def bag(tmp_path):
         (["missing", "--out", "new"], ["'missing' is not there"]),
         (["empty", "--out", "new"], ["'empty' holds no .mcap file"]),
         (["text.mcap", "--out", "new"], ["'text.mcap' cannot be read"]),
-        (["text.mcap", "empty", "empty/../text.mcap", "--out", "new"], ["'empty/../text.mcap' is given twice"]),
+        (["text.mcap", "empty/../text.mcap", "--out", "new"], ["'empty/../text.mcap' is given twice"]),
         (["empty", "--out", "empty"], ["'empty' exists already"]),
         (["empty", "--out", "text.mcap/new"], ["'text.mcap/new' cannot be made"]),
         (["empty", "--settle", "-1"], ["--settle", "-1"]),
@@ -79,3 +79,11 @@ def test_help_speaks_of_the_report(start_cli):
     analyze = start_cli("analyze", "--help")
     assert analyze.wait() == 0
     assert "HTML report" in analyze.output and "2 or more" in analyze.output
+
+
+def test_a_folder_and_its_file_are_one_bag(start_cli, tmp_path, bag):
+    """Refused before anything is read, and nothing is left."""
+    (file,) = bag.glob("*.mcap")
+    analyze = start_cli("analyze", bag, file, "--out", "new")
+    assert analyze.wait() == 1
+    assert f"{file.name}' is given twice" in analyze.output and not (tmp_path / "new").exists()

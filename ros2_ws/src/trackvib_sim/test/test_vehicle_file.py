@@ -32,6 +32,19 @@ def test_shipped_file_loads(content):
             assert value == written or np.array_equal(value, np.array(written, dtype=float))
 
 
+@pytest.mark.property
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("a: &x [1, 2]\nb: *x", "my.yaml: not a YAML file: alias *x is not accepted, write it out"),
+        ("[" * 3000, "my.yaml: not a vehicle file: nested too deeply"),
+    ],
+)
+def test_texts_that_would_blow_up_are_refused(text, words):
+    """In one sentence, before anything has grown."""
+    assert refusal(text) == words
+
+
 @pytest.mark.literature
 def test_published_values_are_the_papers(vehicle):
     """The fits, the rated load, the engine's speeds and its displacement are those printed in the paper."""

@@ -1,6 +1,6 @@
 """From a recording to its `Analysis`."""
 
-from math import hypot, isnan
+from math import hypot, isfinite, isnan
 
 import numpy as np
 
@@ -42,9 +42,10 @@ def settling_of(recording):
     """Return the time [s] that the recorded run settles, by the parameters of its nodes; the shortest if not told."""
     road, simulator = _told(recording, "level_until"), _told(recording, "engine_speed")
     try:
-        return settling_time(float(simulator["speed"]), float(road["level_until"]) + float(road["fade"]))
+        found = settling_time(float(simulator["speed"]), float(road["level_until"]) + float(road["fade"]))
     except (KeyError, ValueError):
         return SHORTEST_SETTLING
+    return found if isfinite(found) else SHORTEST_SETTLING
 
 
 def _told(recording, parameter):

@@ -30,6 +30,3 @@ def analyze(bags, settle, out):
     except (BagError, CommandError) as error:
         click.echo(f"error: {error}", err=True)
         sys.exit(1)
-    except KeyboardInterrupt:
-        click.echo("interrupted", err=True)
-        sys.exit(130)

@@ -14,6 +14,7 @@ from ..analysis.levels import WEIGHTINGS
 from ..analysis.report.excerpt import excerpt
 from ..analysis.report.page import write_report
 from ..analysis.summary import AXES
+from ..bags.files import bag_files
 from ..bags.reading import read_recording
 from .result_folder import CommandError, all_or_nothing
 
@@ -27,10 +28,10 @@ def perform(bags, settle, out):
         A bag is given twice, cannot be read or is too short, or the folder exists or cannot be written. No folder is
         left then.
     """
-    _require_different(bags)
     console = Console(highlight=False)
     folder = out or Path("analyses") / f"{datetime.now():%Y%m%dT%H%M%S}"
     with all_or_nothing(folder) as folder:
+        _require_different(bags)
         analyses, excerpts = [], []
         with _progress(console) as progress:
             for bag in bags:
@@ -57,9 +58,10 @@ def _require_different(bags):
     """Refuse a bag that is given twice: the tables tell bags apart by their paths."""
     seen = set()
     for bag in bags:
-        if (path := realpath(bag)) in seen:
+        files = set(map(realpath, bag_files(bag)))
+        if files & seen:
             raise CommandError(f"bag {bag!r} is given twice")
-        seen.add(path)
+        seen |= files
 
 
 def _progress(console):

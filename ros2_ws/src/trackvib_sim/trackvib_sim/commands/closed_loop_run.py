@@ -182,11 +182,12 @@ def _print_summary(console, summary, folder):
         table.add_row(sensor, *(f"{summary['rms_mps2'][sensor][axis]:.3f}" for axis in AXES))
     console.print(table)
     loop, mounts = summary["loop"], MountEnergy(**summary["mounts_J"])
+    unanswered = loop["samples"] if loop["unanswered"] is None else loop["unanswered"]  # None: not one answer came
     for line in (
         f"mounts: {mounts.work:.1f} J of work = {mounts.dissipated:.1f} dissipated {mounts.stored:+.1f} stored "
         f"{mounts.exchanged:+.1f} given to the field by switching; left over {100.0 * mounts.error:.3f} %",
         f"loop: {loop['samples']} samples; lost {loop['lost_chassis']} chassis, {loop['lost_powertrain']} powertrain; "
-        f"unanswered {loop['unanswered']}; late {loop['late']}; rejected "
+        f"unanswered {unanswered}; late {loop['late']}; rejected "
         f"{int(loop['early']) + int(loop['duplicate']) + int(loop['not_finite'])}; saturated {loop['saturated']}",
         f"pace: {float(loop['real_time_factor']):.2f} x real time; of each period physics "
         f"{loop['physics_us_per_period']} us, publishing {loop['publishing_us_per_period']} us, waiting for the answer "

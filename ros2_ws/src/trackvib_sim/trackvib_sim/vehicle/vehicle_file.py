@@ -21,13 +21,34 @@ def parse_vehicle(text, name):
         The text is not YAML, or an item is missing, unknown, in the wrong unit or out of range.
     """
     try:
-        content = yaml.safe_load(text)
-    except (yaml.YAMLError, ValueError) as error:  # the latter from impossible dates
-        raise VehicleFileError(f"{name}: not a YAML file: {error}") from None
-    try:
-        return Vehicle.model_validate(content)
+        return Vehicle.model_validate(load_vehicle(text, name))
     except ValidationError as error:
         raise VehicleFileError("\n".join(_sentence(name, each) for each in error.errors())) from None
+
+
+def load_vehicle(text, name):
+    """Return what a YAML text holds, as it stands.
+
+    Raises
+    ------
+    VehicleFileError
+        It is not YAML, is nested beyond all measure, or has aliases, of which a small text can make a huge one.
+    """
+    try:
+        return yaml.load(text, _Loader)  # noqa: S506, a safe one
+    except (yaml.YAMLError, ValueError) as error:  # the latter from impossible dates
+        raise VehicleFileError(f"{name}: not a YAML file: {error}") from None
+    except RecursionError:
+        raise VehicleFileError(f"{name}: not a vehicle file: nested too deeply") from None
+
+
+class _Loader(yaml.SafeLoader):
+    """PyYAML's safe one, but without aliases."""
+
+    def compose_node(self, parent, index):
+        if self.check_event(yaml.AliasEvent):
+            raise yaml.YAMLError(f"alias *{self.peek_event().anchor} is not accepted, write it out")
+        return super().compose_node(parent, index)
 
 
 def read_vehicle(path):

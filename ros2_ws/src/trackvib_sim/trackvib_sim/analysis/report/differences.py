@@ -1,8 +1,7 @@
 """What differs between the runs of several bags, by the parameters and the vehicle files in them."""
 
-import yaml
-
 from ...bags.provenance import parameters
+from ...vehicle.vehicle_file import VehicleFileError, load_vehicle
 from .facts import NOT_TOLD
 
 
@@ -39,10 +38,10 @@ def _of_vehicles(texts):
 def _entries(text):
     """Return a vehicle file's entries as text by their flattened keys; None of a text that is none."""
     try:
-        content = yaml.safe_load(text or "")
-        return dict(_flat(content)) if isinstance(content, dict) else None
-    except (yaml.YAMLError, ValueError, RecursionError):  # ValueErrors from impossible dates
+        content = load_vehicle(text or "", "vehicle")
+    except VehicleFileError:
         return None
+    return dict(_flat(content)) if isinstance(content, dict) else None
 
 
 def _flat(section, above=""):
