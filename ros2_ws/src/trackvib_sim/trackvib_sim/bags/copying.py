@@ -20,7 +20,7 @@ def copy_bag(path, writer, wanted=lambda topic: True, attached=lambda name: True
     known = set()
     for record in raw_records(path):
         if isinstance(record, Attachment) and attached(record.name):
-            writer.add_attachment(record.name, record.data.decode())
+            writer.copy_attachment(record)
         if not isinstance(record, RawMessage):
             continue
         if record.topic not in known:

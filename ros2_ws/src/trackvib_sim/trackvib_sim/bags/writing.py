@@ -74,6 +74,10 @@ class BagWriter:
         """Attach a YAML file."""
         self._mcap.add_attachment(0, 0, name, "application/yaml", text.encode())
 
+    def copy_attachment(self, record):
+        """Attach what is attached to another bag: an `mcap.records.Attachment`, of whatever kind."""
+        self._mcap.add_attachment(record.create_time, record.log_time, record.name, record.media_type, record.data)
+
     def flush(self):
         """Hand everything so far to the operating system: it outlives this process, however that ends."""
         self._mcap.flush()
