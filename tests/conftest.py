@@ -20,6 +20,8 @@ from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import Trigger
 from trackvib_sim.nodes.processes import end_with_parent
 
+from .edited_bags import edit_bag
+
 PACKAGES = {
     "simulator": "trackvib_sim",
     "road_excitation": "trackvib_sim",
@@ -122,6 +124,12 @@ def recorded_run(tmp_path_factory):
         done = subprocess.run([*command, "--out", str(folder)], env=env, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stdout + done.stderr
     return folder
+
+
+@pytest.fixture
+def edited(recorded_run, tmp_path):
+    """Copy the recorded bag with other messages or provenance, as `edited_bags.edit_bag`: `edited(message=...)`."""
+    return lambda **changes: edit_bag(recorded_run / "bag", tmp_path / "edited", **changes)
 
 
 @pytest.fixture

@@ -81,6 +81,14 @@ def test_help_speaks_of_the_report(start_cli):
     assert "HTML report" in analyze.output and "2 or more" in analyze.output
 
 
+def test_brackets_in_a_path_are_printed(start_cli, tmp_path, bag):
+    """They are no commands to whatever prints."""
+    place = bag.rename(tmp_path / "runs[old]x[/old]")
+    analyze = start_cli("analyze", place.name, "--out", "new[/b]")
+    assert analyze.wait() == 0, analyze.output
+    assert "bag 1: runs[old]x[/old]: " in analyze.output and "left in new[/b]: " in analyze.output
+
+
 def test_a_folder_and_its_file_are_one_bag(start_cli, tmp_path, bag):
     """Refused before anything is read, and nothing is left."""
     (file,) = bag.glob("*.mcap")

@@ -11,6 +11,7 @@ from rich.console import Console
 from rosbags.rosbag2 import Reader
 from trackvib_sim.bags.contents import attachment, contents
 from trackvib_sim.bags.reading import read_recording
+from trackvib_sim.bags.stamps import leading_stamp
 from trackvib_sim.bags.writing import BagWriter
 from trackvib_sim.commands.replay_law import perform
 from trackvib_sim.commands.replay_verify import verify
@@ -120,7 +121,22 @@ def test_into_a_stock_controller(start_cli, recorded_run, tmp_path, law, words):
     both = counts(recorded_run / "bag") + Counter({"/replayed/current": 3200})
     assert counts(tmp_path / "out" / "bag") == both
     np.testing.assert_array_equal(new.answers.current, old.answers.current)
+    again = start_cli("replay", tmp_path / "out" / "bag", "--controller", law, "--out", tmp_path / "again")
+    assert again.wait() == 1 and "is the result of such a replay" in again.output
+    assert not (tmp_path / "again").exists()
     assert contents(tmp_path / "out" / "bag").attachments == contents(recorded_run / "bag").attachments
+
+
+def test_a_bag_that_begins_in_the_middle(edited, tmp_path):
+    """Levels are compared over the same instants: the same law, started from the beginning, changes nothing."""
+
+    def late(topic, data):
+        return None if topic.endswith(("imu", "mount_state")) and leading_stamp(data) <= 150_000_000 else data
+
+    perform(edited(late), "skyhook", tmp_path / "out", Console(quiet=True))
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert {change for axes in summary["change_percent"].values() for change in axes.values()} == {0.0}
+    assert summary["mounts_J"]["work"] > 0.0
 
 
 def test_into_a_controller_of_ones_own(start_cli, start_node, recorded_run, tmp_path):

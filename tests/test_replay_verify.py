@@ -5,12 +5,8 @@ import signal
 from pathlib import Path
 
 import pytest
-from mcap.records import Metadata
-from mcap.writer import Writer
 from rich.console import Console
-from trackvib_sim.bags.raw_messages import RawMessage, raw_records
 from trackvib_sim.bags.reading import read_recording
-from trackvib_sim.bags.schemas import schema_text
 from trackvib_sim.bags.stamps import leading_stamp
 from trackvib_sim.bags.writing import BagError
 from trackvib_sim.commands.replay_verify import verify
@@ -23,39 +19,6 @@ STAMP = 2_000_000_000  # ns, of the message that is spoilt
 def check(bag):
     """Verify in this process."""
     return verify(bag, Console(quiet=True))
-
-
-@pytest.fixture
-def edited(recorded_run, tmp_path):
-    """Copy the recorded bag with other messages or provenance: `edited(message=..., provenance=...)`.
-
-    Both functions get the topic or the record's name and the contents, and return what shall stand there, or None.
-    """
-
-    def make(message=lambda topic, data: data, provenance=lambda name, values: values):
-        folder = tmp_path / "edited"
-        folder.mkdir()
-        channels = {}
-        with (folder / "edited_0.mcap").open("wb") as file:
-            writer = Writer(file)
-            writer.start(profile="ros2", library="test")
-            for record in raw_records(recorded_run / "bag"):
-                if isinstance(record, RawMessage) and record.topic not in channels:
-                    text = schema_text(record.type_name).encode()
-                    schema = writer.register_schema(record.type_name, "ros2msg", text)
-                    channels[record.topic] = writer.register_channel(record.topic, "cdr", schema, {})
-                if isinstance(record, RawMessage) and record.message is not None:
-                    time, data = record.message.log_time, message(record.topic, record.message.data)
-                    if data is not None:
-                        writer.add_message(channels[record.topic], time, data, time)
-                elif isinstance(record, Metadata):
-                    values = provenance(record.name, dict(record.metadata))
-                    if values is not None:
-                        writer.add_metadata(record.name, values)
-            writer.finish()
-        return folder
-
-    return make
 
 
 def test_a_recorded_run_comes_out_again(start_cli, recorded_run):
@@ -231,6 +194,18 @@ def test_each_epoch_is_verified(start_node, observer, tmp_path):
     for bag in ("bag", "bag_epoch_2"):
         identical, verdict = check(tmp_path / bag)
         assert identical, verdict
+
+
+def test_nothing_compared_is_no_verdict(edited):
+    """Without answers a drive cannot begin, however short it is and however late its samples begin."""
+
+    def late(topic, data):
+        if topic in ("/chassis/imu", "/powertrain/imu", "/mount_state"):
+            return data if 500_000_000 < leading_stamp(data) < 900_000_000 else None
+        return None if topic == "/coil_current" else data
+
+    with pytest.raises(ValueError, match="no answer to the sample at t = 0.001 s"):
+        check(edited(late))
 
 
 def test_two_runs_in_one_bag_are_refused(recorded_run, tmp_path):

@@ -8,6 +8,7 @@ import pytest
 from pyarrow import parquet
 from trackvib_sim.analysis.bag_analysis import analyse, settling_of
 from trackvib_sim.analysis.bag_tables import rows, write_tables
+from trackvib_sim.analysis.report.excerpt import excerpt
 from trackvib_sim.analysis.summary import TooShort, prepare, summarise
 from trackvib_sim.analysis.vibration import rms
 
@@ -83,6 +84,20 @@ def test_what_is_missing_is_said():
     assert any("no odometry after the settling time" in note for note in analyse(early).notes)
     unreadable = analyse(whole._replace(vehicle="hull: 1"))
     assert unreadable.lines == () and any("vehicle description" in note for note in unreadable.notes)
+
+
+@pytest.mark.property
+def test_samples_that_are_no_numbers_are_noted():
+    """They are counted by topic, and the report can be made all the same."""
+    whole = made_recording(np.arange(1, 5001))
+    force, acceleration = np.array(whole.mounts.force), np.array(whole.chassis.specific_force)
+    force[3000, 1, 2], acceleration[10:12, 0] = np.nan, np.inf
+    odd = whole._replace(
+        mounts=whole.mounts._replace(force=force), chassis=whole.chassis._replace(specific_force=acceleration)
+    )
+    found = analyse(odd)
+    assert found.notes == ("chassis/imu: samples that are no numbers: 2", "mount_state: samples that are no numbers: 1")
+    assert np.isfinite(excerpt(odd, found).deflection_loops["right"].density).any()
 
 
 @pytest.mark.property

@@ -195,6 +195,7 @@ def test_bags_are_compared_with_the_first(report):
         (["/x/a/bag", "/x/a/bag_epoch_2"], ["bag", "bag_epoch_2"]),
         (["bag", "bag"], ["bag (1)", "bag (2)"]),
         (["/x/bag", "y/bag"], ["/x", "y"]),
+        (["."], ["/".join(Path.cwd().parts[-2:])]),
     ],
 )
 def test_names_are_what_paths_do_not_share(paths, names):

@@ -13,7 +13,7 @@ from .levels import Levels, bins
 from .mean_spectra import MeanSpectra, known_lines
 from .settling import SHORTEST_SETTLING, settling_time
 from .slow_numbers import bin_means, currents, moments, mount_numbers
-from .stretches import common, timing
+from .stretches import BLOCK, blocks, common, timing
 from .summary import (
     AXES,
     SENSORS,
@@ -199,15 +199,26 @@ def _notes(recording, timings, rate):
     notes = []
     if not recording.complete:
         notes.append("the bag was cut short; what there is of it counts (`trackvib bag repair` completes it)")
+    odd = {end: _not_finite(getattr(recording, part)) for part, end in TOPICS.items() if end in timings}
     for end, (found, _) in timings.items():
         missing = "1 sample is" if found.missing == 1 else f"{found.missing} samples are"
         counts = {
             f"gaps: {found.gap_count}, in which {missing} missing": found.gap_count,
             f"samples within half a period of the one before: {found.repeated}": found.repeated,
-            f"samples older than the one before: {found.backward}; nothing counts from there on": found.backward,
+            f"samples older than the one before: {found.backward}": found.backward,
+            f"samples that are no numbers: {odd[end]}": odd[end],
         }
         notes += [f"{end}: {text}" for text, count in counts.items() if count]
     if rate < LEAST_RATE:
         notes.append(f"sampling rate is {rate:g} Hz, below {LEAST_RATE:g} Hz: no weighted values of ISO 2631-1")
     lacking = (part for part in _WITHOUT if getattr(recording, part) is None)
     return notes + [f"no {TOPICS[part]} in the bag: {_WITHOUT[part]}" for part in lacking]
+
+
+def _not_finite(columns):
+    """Count the samples of some columns, the stamps first, with a value that is not finite."""
+    count = 0
+    for block in blocks(len(columns[0]), BLOCK):
+        parts = (column[block].reshape(len(column[block]), -1) for column in columns[1:])
+        count += int(np.count_nonzero(~np.logical_and.reduce([np.isfinite(part).all(axis=1) for part in parts])))
+    return count

@@ -7,12 +7,12 @@ matplotlib.use("Agg")  # files only: no display is needed
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
+from .bag_numbers import SIDES  # noqa: E402
 from .plots import LOWEST_FREQUENCY, NAMES  # noqa: E402
 from .summary import SENSORS  # noqa: E402
 from .vibration import psd  # noqa: E402
 
 COLOURS = ("#6b7785", "#c2410c")  # recorded, replayed
-SIDES = ("left", "right")
 SIDE_COLOURS = ("#1d5fa8", "#c98a00")
 PART = 0.5  # s, of which levels are drawn: of samples the last curve drawn would hide the others
 CLOSE = 1.0  # s that are drawn close up

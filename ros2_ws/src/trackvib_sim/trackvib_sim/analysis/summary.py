@@ -55,7 +55,7 @@ def start_of(recording):
         raise ValueError(f"stamps of chassis/imu go on by {period:g} ns from sample to sample, must be above 0")
     if odometry is not None and odometry.stamp[0] == 0:  # of the vehicle before the first period
         return 0
-    return int(min(chassis[0], recording.powertrain.stamp[0]) - period)
+    return int(min(chassis[0], recording.powertrain.stamp[0])) - round(period)
 
 
 def losses(recording):
@@ -80,17 +80,19 @@ def losses(recording):
         raise ValueError(f"stamps reach over {reach}, which {len(chassis)} samples of chassis/imu cannot fill")
     counted = {}
     for name, stamp in (("chassis", chassis), ("powertrain", powertrain), ("answered", answered)):
-        seen = np.zeros(expected, bool)
+        seen, inside = np.zeros(expected, bool), 0
         for block in blocks(len(stamp), BLOCK):
             index = np.round((stamp[block] - begin) / period).astype(np.int64) - 1
-            seen[index[(index >= 0) & (index < expected)]] = True
+            index = index[(index >= 0) & (index < expected)]
+            seen[index] = True
+            inside += len(index)
         counted[name] = int(np.count_nonzero(seen))
     return {
         "samples": expected,
         "lost_chassis": expected - counted["chassis"],
         "lost_powertrain": expected - counted["powertrain"],
         "unanswered": None if nobody else expected - counted["answered"],
-        "answered_twice": None if nobody else len(answered) - counted["answered"],
+        "answered_twice": None if nobody else inside - counted["answered"],  # of answers, which come last
     }
 
 

@@ -28,7 +28,7 @@ def perform(bags, settle, out):
         A bag is given twice, cannot be read or is too short, or the folder exists or cannot be written. No folder is
         left then.
     """
-    console = Console(highlight=False)
+    console = Console(highlight=False, markup=False)  # paths and notes may hold brackets
     folder = out or Path("analyses") / f"{datetime.now():%Y%m%dT%H%M%S}"
     with all_or_nothing(folder) as folder:
         _require_different(bags)
@@ -38,9 +38,10 @@ def perform(bags, settle, out):
                 recording = read_recording(bag, _follower(progress, f"reading {bag}"))
                 try:
                     analyses.append(analyse(recording, settle, _follower(progress, f"measuring {bag}")))
+                    excerpts.append(excerpt(recording, analyses[-1]))
                 except ValueError as error:
                     raise CommandError(f"bag {bag!r}: {error}") from None
-                excerpts.append(excerpt(recording, analyses[-1]))
+                del recording  # and with it large temporary files, before the next one makes its own
         write_tables(analyses, folder)
         write_report(excerpts, folder / "report.html")
     for number, analysis in enumerate(analyses, 1):
@@ -65,7 +66,7 @@ def _require_different(bags):
 
 
 def _progress(console):
-    columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
     return Progress(*columns, console=console)
 
 

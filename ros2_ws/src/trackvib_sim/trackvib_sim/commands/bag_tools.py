@@ -11,7 +11,7 @@ from ..simulation.settings import NANO
 
 def show(path):
     """Print topics, times and origin of a bag; raises `BagError`."""
-    found, console = contents(path), Console(highlight=False)
+    found, console = contents(path), Console(highlight=False, markup=False)
     table = Table(title=str(path), title_justify="left")
     for name in ("topic", "type", "messages"):
         table.add_column(name, justify="right" if name == "messages" else "left")
@@ -30,7 +30,7 @@ def show(path):
 
 def mend(path):
     """Repair a bag and print what was done; raises `BagError`."""
-    console = Console(highlight=False)
+    console = Console(highlight=False, markup=False)
     with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:
         task = progress.add_task("repairing")
         done = repair(path, lambda read, size: progress.update(task, completed=read, total=size))

@@ -69,11 +69,12 @@ def perform(choices, out):
             f"--duration is {choices.duration:g} s, must be at least {needed:.1f} s at {choices.speed:g} m/s: "
             f"{choices.settling:.1f} s to settle and {SHORTEST_MEASURING:g} s to measure"
         )
-    console = Console(highlight=False)
+    console = Console(highlight=False, markup=False)
     with own_domain():
         name = f"{datetime.now():%Y%m%dT%H%M%S}_{choices.road_class}_{choices.speed:g}"
         folder = make_folder(out or Path("runs") / name)
-        (folder / "log").mkdir()
+        with writing_to(folder):
+            (folder / "log").mkdir()
         console.print(f"closed loop: {choices.title}")
         interrupt = _run_nodes(choices, folder, console)
     try:
@@ -167,7 +168,7 @@ def _evaluate(choices, folder, console):
     (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
     run_picture(prepare(recording, choices.settling), choices.title, folder / "run.png")
     with (folder / "summary.txt").open("w", encoding="utf-8") as file:
-        _print_summary(Console(file=file, width=100), summary, folder)
+        _print_summary(Console(file=file, width=100, markup=False), summary, folder)
     _print_summary(console, summary, folder)
 
 

@@ -42,7 +42,7 @@ def replay(bag, verify, law, controller, out):
     from ..bags.writing import BagError
     from .result_folder import CommandError
 
-    console = Console(highlight=False)
+    console = Console(highlight=False, markup=False)
     name = (law or controller or "").rpartition(":")[2]
     out = out or Path("runs") / f"{datetime.now():%Y%m%dT%H%M%S}_replay_{name}"
     try:

@@ -39,6 +39,9 @@ def perform(bag, law, out, console):
     recording = read_recording(bag)
     recording.require()
     samples = len(recording.chassis.stamp)
+    if REPLAYED in recording.counts:
+        made_of = recording.provenance.get("replay", {}).get("bag", "the bag it was made of")
+        raise BagError(f"bag {str(bag)!r} is the result of such a replay; give {made_of} instead")
     if samples < 2:
         raise BagError(f"bag {str(bag)!r} holds a single sample, at least two are needed")
     with own_domain():

@@ -8,12 +8,11 @@ from rich.table import Table
 
 from ..analysis.bag_analysis import analyse
 from ..analysis.replay_pictures import drives_picture
-from ..analysis.summary import AXES, SENSORS, TooShort, prepare, summarise
+from ..analysis.summary import AXES, SENSORS, TooShort, prepare, start_of, summarise
 from ..bags.copying import copy_bag
 from ..bags.files import called
 from ..bags.provenance import PARAMETERS_OF, parameters_with, write_parameters, write_versions
 from ..bags.reading import read_recording
-from ..bags.recording import Answers
 from ..bags.writing import BagWriter
 from ..nodes import topics
 from ..nodes.rerun_bag import RerunBag
@@ -21,6 +20,7 @@ from ..nodes.simulator_parameters import prepare_again
 from ..simulation.closed_loop import periods_under_law
 from ..simulation.settings import NANO
 from ..simulation.simulation import RunFailed
+from ..vehicle.mount_audit import mount_account
 from .progress import followed
 from .result_folder import all_or_nothing
 
@@ -41,30 +41,31 @@ def perform(bag, law, out, console):
     with all_or_nothing(out) as folder:
         ended = _drive(recording, simulation, chosen, law, folder / "bag", console)
         labels, summary = _compare(recording, read_recording(folder / "bag"), law, ended, folder)
+        summary["mounts_J"] = mount_account(simulation.state.audit)._asdict()
+        (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
     console.print(_table(summary, labels))
     console.print(f"{ended}; left in {folder}: bag/, summary.json, replay.png", soft_wrap=True)
 
 
 def _compare(recording, rerun, law, ended, folder):
-    """Write summary and picture of both drives; returns what they are called, and the summary."""
-    last = int(rerun.chassis.stamp[-1])
+    """Draw both drives over the same instants; returns what they are called, and their levels."""
+    begin, last = start_of(recording), int(rerun.chassis.stamp[-1])
     recorded_law = parameters_with(recording.provenance, "law")[1].get("law", "law not told")
     labels = (f"recorded ({recorded_law})", f"replayed ({law})")
-    drives = {label: _until(drive, last) for label, drive in zip(labels, (recording, rerun), strict=True)}
+    both = _between(recording, begin, last, rerun), _between(rerun, begin, last, recording)
+    drives = dict(zip(labels, both, strict=True))
     try:
         analyses = [analyse(drive) for drive in drives.values()]
     except TooShort as error:
         raise TooShort(f"{ended}; {error}") from None
     drives_picture(
         {label: prepare(drive, analyses[0].settle) for label, drive in drives.items()},
-        {label: _currents(drive) for label, drive in drives.items()},
+        {label: _currents(drive, begin) for label, drive in drives.items()},
         f"{called(recording.path)} again under {law}, {last / NANO:g} s",
         folder / "replay.png",
     )
     how = {"bag": str(recording.path), "law": law, "duration_s": last / NANO, "ended": ended}
-    summary = {"replay": how, **_levels(*map(summarise, analyses)), "mounts_J": analyses[1].mount_energy}
-    (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
-    return labels, summary
+    return labels, {"replay": how, **_levels(*map(summarise, analyses))}
 
 
 def _drive(recording, simulation, chosen, law, path, console):
@@ -115,25 +116,31 @@ def _describe(writer, recording, controller, law, chosen):
             writer.add_provenance(name, told)
 
 
-def _until(recording, stamp):
-    """The part of a recording up to a stamp [ns]."""
+def _between(recording, begin, last, other):
+    """The part of a recording after one stamp [ns] and up to another, of the sensors the samples that `other` has, too.
 
-    def cut(columns):
-        return columns and type(columns)(*(each[: np.searchsorted(columns[0], stamp, "right")] for each in columns))
+    So levels are compared over the same instants: a bag may begin in the middle of a run or lack samples, a rerun
+    begins at the start, lacks none, and may end early.
+    """
+    cut = {}
+    for part in ("chassis", "powertrain", "mounts", "answers", "odometry"):
+        columns = getattr(recording, part)
+        if columns is None:
+            continue
+        kept = (columns[0] > begin) & (columns[0] <= last)
+        if part in SENSORS:
+            kept &= np.isin(columns[0], getattr(other, part).stamp)
+        cut[part] = type(columns)(*(column[kept] for column in columns)) if kept.any() else None
+    # when the whole run ended says nothing about a part of it
+    diagnostics = {key: told for key, told in recording.diagnostics.items() if key != "time"}
+    return recording._replace(diagnostics=diagnostics, **cut)
 
-    parts = ("chassis", "powertrain", "mounts", "odometry")
-    answers = recording.answers  # whose order is that of arrival
-    if answers is not None:
-        kept = answers.sample_stamp <= stamp
-        answers = Answers(*(each[kept] for each in answers))
-    return recording._replace(answers=answers, **{part: cut(getattr(recording, part)) for part in parts})
 
-
-def _currents(recording):
-    """Times [s] and demanded currents (k, 2) [A] of all answers."""
+def _currents(recording, begin):
+    """Times [s] from a stamp [ns] on and demanded currents (k, 2) [A] of all answers."""
     if recording.answers is None:
         return np.empty(0), np.empty((0, 2))
-    return recording.answers.sample_stamp / NANO, recording.answers.current
+    return (recording.answers.sample_stamp - begin) / NANO, recording.answers.current
 
 
 def _levels(recorded, replayed):

@@ -62,11 +62,11 @@ def verify(bag, console):
         _Stream(recording, "powertrain/imu", recording.powertrain),
     )
     rates, last = simulation.settings.rates, int(max(stream.stamp[-1] for stream in streams))
-    answered = 0 if recording.answers is None else recording.answers.sample_stamp.max()
+    answered = last if recording.answers is None else recording.answers.sample_stamp.max()
     for stream in streams:
-        odd = stream.stamp[stream.stamp % rates.period != 0]
+        odd = stream.stamp[(stream.stamp % rates.period != 0) | (stream.stamp <= 0)]
         if odd.size:
-            raise NotVerifiable(f"{stream.topic} has the stamp {odd[0]} ns, no multiple of the period")
+            raise NotVerifiable(f"{stream.topic} has the stamp {odd[0]} ns, at which no period ends")
     currents = currents_in_force(simulation, recording, values["on_silence"])
     other = _other_versions(recording.provenance)
     for _ in followed(range(last // rates.period), "driving again", console):
@@ -90,6 +90,8 @@ def verify(bag, console):
         )
         if difference:
             return False, f"different: {difference}{other}"
+    if not all(stream.compared for stream in streams):
+        raise NotVerifiable(f"its samples begin after t = {simulation.time / NANO:.3f} s, where its answers end")
     count = ", ".join(f"{stream.compared} of {stream.topic}" for stream in streams)
     cut = "" if recording.complete else "; the bag is cut short, this is what it holds"
     return True, f"identical to the last bit: {count}, up to t = {simulation.time / NANO:.3f} s{cut}{other}"

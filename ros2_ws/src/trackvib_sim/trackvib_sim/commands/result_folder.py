@@ -1,5 +1,6 @@
 """The folder for what a command leaves, and the error in which a command ends."""
 
+import os
 import shutil
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -39,7 +40,7 @@ def all_or_nothing(path):
     CommandError
         There is one, it cannot be made, or it cannot be written to.
     """
-    new = [folder for folder in (Path(path), *Path(path).parents) if not folder.exists()]
+    new = [folder for folder in (Path(path), *Path(path).parents) if not os.path.exists(folder)]
     folder = make_folder(path)
     try:
         with writing_to(folder):

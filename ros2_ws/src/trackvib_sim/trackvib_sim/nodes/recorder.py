@@ -77,6 +77,7 @@ class RecorderNode(LoopNode):
         self._times = Timekeeping()
         self._recorded = self.create_publisher(Time, topics.RECORDED, LATCHED_QOS)
         self._received, self._failure = 0, None
+        self._flushed = time.monotonic()
 
     def run(self):
         """Make the bag, wait for every topic, write down where it comes from, record until told to stop."""
@@ -96,9 +97,11 @@ class RecorderNode(LoopNode):
             last = now = time.monotonic()
             end = now + _LAST
             while now < min(last + _QUIET, end):
+                before = self._received
                 self.spin_once(_QUIET / 10)
-                taken, now = self._take_all(), time.monotonic()
-                last = now if taken else last
+                self._take_all()
+                now = time.monotonic()
+                last = now if self._received > before else last
             self._complete()
         except OSError as error:
             raise self._given_up(error) from None
@@ -109,21 +112,18 @@ class RecorderNode(LoopNode):
         self.spin_until(lambda: all(map(is_known, publishing_nodes(self, chosen))), _NAMES_TIMEOUT)
         self._describe(chosen)  # before the loop runs: it takes its time
         self._take_up(chosen)
-        self.spin_until(lambda: all(subscription.get_publisher_count() for subscription in self._taken))
+        self.spin_until(lambda: self._failure or all(each.get_publisher_count() for each in self._taken))
         self._report()  # whoever waits for a recorder starts with this
         self.get_logger().info(f"recording {len(self._topics)} topics to {self._bag.path}")
-        looked = flushed = time.monotonic()
+        looked = time.monotonic()
         while not self.stopping():
             if self._take_all():
                 self._report()
-            now = time.monotonic()
-            if now - flushed > _FLUSH:
-                self._bag.flush()
-                flushed = now
-            if self.settings["pattern"] and now - looked > _LOOK:
+            self._flush_in_time()
+            if self.settings["pattern"] and time.monotonic() - looked > _LOOK:
                 for name in self._take_up(self._choice.present()):
                     self.get_logger().info(f"{name} has appeared and is recorded, too")
-                looked = now
+                looked = time.monotonic()
             if self._undescribed:
                 self._describe(self._topics)
             time.sleep(_REST)
@@ -192,6 +192,13 @@ class RecorderNode(LoopNode):
     def _announce(self, topic):
         self._bag.add_topic(topic.name, topic.type_name, topic.qos, topic.type_hash)
 
+    def _flush_in_time(self):
+        """Hand over to the operating system what a kill must not cost, wherever the node waits at the moment."""
+        now = time.monotonic()
+        if now - self._flushed > _FLUSH:
+            self._bag.flush()
+            self._flushed = now
+
     def _report(self):
         seconds, nanoseconds = divmod(self._times.complete_until, NANO)
         self._recorded.publish(Time(sec=seconds, nanosec=nanoseconds))
@@ -223,6 +230,7 @@ class RecorderNode(LoopNode):
             time_in_bag = self._times.add(topic.name, topic.type_name, topic.stamped, data)
         self._bag.write(topic.name, time_in_bag, data)
         self._received += 1
+        self._flush_in_time()
         if topic.name.endswith(topics.VEHICLE_DESCRIPTION):
             self._bag.add_attachment("vehicle.yaml", deserialize_message(data, message_type(topic.type_name)).data)
 

@@ -149,7 +149,7 @@ def _greatest(deflection, mean, length):
 
 def _loop(across, factor, force, around):
     """Return the `Loop` of a force [N] over something times a factor; the slice `around` is its line."""
-    ranges = [[scale * each.min(), scale * each.max()] for each, scale in ((force, 1e-3), (across, factor))]
+    ranges = [_range(each, scale) for each, scale in ((force, 1e-3), (across, factor))]
     counts = np.zeros((CELLS, CELLS))
     for block in blocks(len(force), BLOCK):
         found, *edges = np.histogram2d(1e-3 * force[block], factor * across[block], CELLS, ranges)
@@ -160,3 +160,12 @@ def _loop(across, factor, force, around):
     rows, columns = (0.5 * (edge[1:] + edge[:-1]).astype(np.float32) for edge in edges)
     line = (factor * across[around]).astype(np.float32), (1e-3 * force[around]).astype(np.float32)
     return Loop(columns, rows, density.astype(np.float32), line)
+
+
+def _range(values, scale):
+    """Return the least and the greatest finite value times a scale; some range if there is none."""
+    least, greatest = np.inf, -np.inf
+    for block in blocks(len(values), BLOCK):
+        finite = values[block][np.isfinite(values[block])]
+        least, greatest = min(least, finite.min(initial=np.inf)), max(greatest, finite.max(initial=-np.inf))
+    return [scale * least, scale * greatest] if least <= greatest else [0.0, 1.0]

@@ -1,7 +1,7 @@
 """What was run, by what the nodes' parameters in a bag say."""
 
 from math import isnan
-from os.path import commonpath
+from os.path import abspath, commonpath
 from pathlib import PurePath
 
 from ...bags.provenance import parameters_with
@@ -53,7 +53,7 @@ def _speed(excerpt):
 
 def names(paths):
     """Return a short name for each of several bags: what their paths do not share."""
-    paths = [PurePath(path) for path in paths]
+    paths = [PurePath(path) if PurePath(path).name else PurePath(abspath(path)) for path in paths]
     if len(paths) == 1:
         return [str(PurePath(*paths[0].parts[-2:]))]
     try:
