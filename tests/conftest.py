@@ -8,6 +8,7 @@ import sys
 import tempfile
 import time
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -128,8 +129,8 @@ def recorded_run(tmp_path_factory):
 
 @pytest.fixture
 def edited(recorded_run, tmp_path):
-    """Copy the recorded bag with other messages or provenance, as `edited_bags.edit_bag`: `edited(message=...)`."""
-    return lambda **changes: edit_bag(recorded_run / "bag", tmp_path / "edited", **changes)
+    """Copy the recorded bag with other messages or provenance, as `edited_bags.edit_bag`: `edited(message, provenance)`."""
+    return partial(edit_bag, recorded_run / "bag", tmp_path / "edited")
 
 
 @pytest.fixture

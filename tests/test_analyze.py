@@ -83,10 +83,11 @@ def test_help_speaks_of_the_report(start_cli):
 
 def test_brackets_in_a_path_are_printed(start_cli, tmp_path, bag):
     """They are no commands to whatever prints."""
-    place = bag.rename(tmp_path / "runs[old]x[/old]")
-    analyze = start_cli("analyze", place.name, "--out", "new[/b]")
+    (tmp_path / "runs[old]").mkdir()
+    bag.rename(tmp_path / "runs[old]" / "drive")
+    analyze = start_cli("analyze", "runs[old]/drive", "--out", "new[bold]")
     assert analyze.wait() == 0, analyze.output
-    assert "bag 1: runs[old]x[/old]: " in analyze.output and "left in new[/b]: " in analyze.output
+    assert "bag 1: runs[old]/drive: " in analyze.output and "left in new[bold]: " in analyze.output
 
 
 def test_a_folder_and_its_file_are_one_bag(start_cli, tmp_path, bag):
