@@ -129,7 +129,7 @@ def recorded_run(tmp_path_factory):
 
 @pytest.fixture
 def edited(recorded_run, tmp_path):
-    """Copy the recorded bag with other messages or provenance, as `edited_bags.edit_bag`: `edited(message, provenance)`."""
+    """Copy the recorded bag with other messages or provenance: `edited(message, provenance)`, see `edit_bag`."""
     return partial(edit_bag, recorded_run / "bag", tmp_path / "edited")
 
 
