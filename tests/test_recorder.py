@@ -20,7 +20,7 @@ from rosbags.rosbag2 import Reader
 from sensor_msgs.msg import Imu
 from std_msgs.msg import String
 from trackvib_msgs.msg import MountState
-from trackvib_sim.bags.contents import attachment, contents
+from trackvib_sim.bags.contents import contents
 from trackvib_sim.bags.repair import repair
 from trackvib_sim.installed import default_vehicle_file
 from trackvib_sim.nodes.messages import ImuMessage, MountMessage
@@ -175,7 +175,7 @@ def test_topics_by_pattern_are_taken_up_when_they_appear(start, start_node, tmp_
     assert found.provenance.count("parameters of /imu_stream") == 1
 
 
-def test_bag_says_what_made_it(start_node, start, tmp_path):
+def test_bag_says_what_made_it(start_node, start, tmp_path, attachment):
     """Vehicle file and parameters lie in it as files; the parameters start the same nodes again."""
     start_node("road_excitation", seed=7, road_class="C")
     start_node("controller", law="skyhook", firm_current=2.5, wait_for_recorder=True)

@@ -9,7 +9,7 @@ import pytest
 from mr_mount_controller.laws.passive import Passive
 from rich.console import Console
 from rosbags.rosbag2 import Reader
-from trackvib_sim.bags.contents import attachment, contents
+from trackvib_sim.bags.contents import contents
 from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.bags.stamps import leading_stamp
 from trackvib_sim.bags.writing import BagWriter
@@ -57,7 +57,7 @@ def test_a_rerun_is_the_run_under_that_law(rerun):
     np.testing.assert_array_equal(drive.answers.current, record.current)
 
 
-def test_a_rerun_leaves_a_whole_bag(rerun, recorded_run):
+def test_a_rerun_leaves_a_whole_bag(rerun, recorded_run, attachment):
     """With all topics of the recorded one, its own law in the provenance, and fit to be verified itself."""
     old, new = read_recording(recorded_run / "bag"), read_recording(rerun / "bag")
     before, after = counts(recorded_run / "bag"), counts(rerun / "bag")

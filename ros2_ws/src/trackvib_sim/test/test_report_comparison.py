@@ -66,6 +66,8 @@ def test_vehicles_are_compared_item_by_item(whole, differences):
         ("a: 2001-99-99", "not a YAML file with sections"),
         ("nothing but words", "not a YAML file with sections"),
         ("a: &a {b: *a}", "not a YAML file with sections"),
+        ("a: !!bool x", "not a YAML file with sections"),
+        (f"a: 0x{'f' * 5000}", "not a YAML file with sections"),
         ("[" * 5000, "not a YAML file with sections"),
     ],
 )

@@ -121,7 +121,10 @@ def test_counts_of_the_paper_are_kept(content):
 
 
 @pytest.mark.property
-@pytest.mark.parametrize("text", ["hull: [", "a: \x00", "a: !!python/object:x {}", "a: 2001-99-99", "a: b: c"])
+@pytest.mark.parametrize("text", [
+    "hull: [", "a: \x00", "a: !!python/object:x {}", "a: 2001-99-99", "a: b: c",
+    "a: !!bool x", "a: !!int ''", "a: !!timestamp abc",
+])  # fmt: skip
 def test_no_yaml_is_said_so(text):
     """A text that YAML cannot read is refused as that."""
     assert "my.yaml: not a YAML file: " in refusal(text)

@@ -75,6 +75,9 @@ def test_what_does_not_fit_is_refused():
     for start in (b"", b"\x00\x07\x00\x00"):
         with pytest.raises(LayoutError, match="not plain CDR"):
             find_layout(STORE, NAME, start + data[4 if start else len(data) :], WANTED)
+    incomplete = DEFINITION.replace("MSG: some_msgs/Inner", "MSG: some_msgs/Other").encode()
+    with pytest.raises(LayoutError, match="field pairs.0 is a some_msgs/msg/Inner, which .* does not define"):
+        find_layout(type_store(NAME, "ros2msg", incomplete), NAME, data, WANTED)
     with pytest.raises(LayoutError, match="is in 'protobuf', accepted are ros2msg, ros2idl"):
         type_store(NAME, "protobuf", b"")
     with pytest.raises(LayoutError, match="cannot be read"):

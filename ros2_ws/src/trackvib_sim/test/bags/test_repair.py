@@ -188,6 +188,21 @@ def test_nothing_is_overwritten(sound, copy):
     assert (copy / f"{NAME}.damaged").read_bytes() == b"precious" and (copy / NAME).read_bytes() == data
 
 
+def test_interrupted_between_the_names(sound, copy, monkeypatch):
+    """The original has its name again, and nothing lies about."""
+    data = sound.data[:-50]
+    (copy / NAME).write_bytes(data)
+
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(type(copy), "replace", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        repair(copy)
+    assert {file.name for file in copy.iterdir()} == {NAME, "metadata.yaml"}
+    assert (copy / NAME).read_bytes() == data
+
+
 def test_bag_that_is_being_recorded_is_refused(tmp_path):
     """Until its writer ends."""
     bag = BagWriter(tmp_path / "bag")

@@ -52,7 +52,7 @@ def type_store(type_name, encoding, text):
     store = get_typestore(Stores.EMPTY)
     try:
         store.register(parse(text.decode(), type_name))
-    except (TypesysError, ValueError) as error:
+    except (TypesysError, ValueError, LookupError) as error:
         raise LayoutError(f"definition of {type_name} cannot be read: {error}") from None
     return store
 
@@ -72,7 +72,7 @@ def find_layout(store, type_name, message, wanted):
     Raises
     ------
     LayoutError
-        The message is not of that type, is cut short, or has no such field.
+        The message is not of that type, is cut short, or has no such field, or the definition is incomplete.
     """
     order = _ORDERS.get(bytes(message[:2]))
     if order is None:
@@ -105,6 +105,8 @@ class _Walk:
         """Step over a field: note its numbers, look up its lengths."""
         node, detail = description
         if node == Nodetype.NAME:
+            if detail not in self._store.fielddefs:
+                raise LayoutError(f"field {name} is a {detail}, which the definition does not define")
             for field, inner in self._store.fielddefs[detail][1]:
                 self.visit(inner, f"{name}.{field}" if name else field)
         elif node == Nodetype.BASE and detail[0] == "string":

@@ -1,10 +1,8 @@
 """What is in a bag, from the indexes of its files."""
 
 from collections import Counter
-from pathlib import Path
 from typing import NamedTuple
 
-from mcap.reader import make_reader
 from mcap.writer import MCAP0_MAGIC
 
 from .files import bag_files
@@ -33,7 +31,7 @@ def contents(path):
     Raises
     ------
     BagError
-        It is no bag, or was cut short.
+        It is no bag, was cut short, or cannot be read.
     """
     files = bag_files(path)
     summaries = [_summary(file) for file in files]
@@ -56,31 +54,18 @@ def contents(path):
     )
 
 
-def attachment(path, name):
-    """Return the text of an attachment of a bag folder (the last one of that name), None if it has none.
-
-    Raises
-    ------
-    BagError
-        It is no bag.
-    """
-    text = None
-    for file in bag_files(path):
-        with Path(file).open("rb") as stream:
-            for each in make_reader(stream).iter_attachments():
-                if each.name == name:
-                    text = each.data.decode()
-    return text
-
-
 def _summary(file):
     try:
         summary = summary_of(file)
     except (OSError, *DAMAGE):
         summary = None
     if summary is None:
-        with file.open("rb") as stream:
-            if stream.read(len(MCAP0_MAGIC)) != MCAP0_MAGIC:
-                raise BagError(f"{str(file)!r} is no MCAP file")
+        try:
+            with file.open("rb") as stream:
+                magic = stream.read(len(MCAP0_MAGIC))
+        except OSError as error:
+            raise BagError(f"{str(file)!r} cannot be read: {error.strerror}") from None
+        if magic != MCAP0_MAGIC:
+            raise BagError(f"{str(file)!r} is no MCAP file")
         raise BagError(f"{str(file)!r} was cut short; `trackvib bag repair` completes it")
     return summary

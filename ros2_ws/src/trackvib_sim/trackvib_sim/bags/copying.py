@@ -1,40 +1,41 @@
 """Copies what a bag holds into another one, byte for byte."""
 
-import yaml
-from mcap.records import Attachment
+from mcap.records import Attachment, Schema
 
 from .raw_messages import RawMessage, raw_records
-from .writing import BagError
+from .schemas import schema_text
 
 
 def copy_bag(path, writer, wanted=lambda topic: True, attached=lambda name: True):
     """Announce all topics of a bag to a `BagWriter`, copy wanted messages and attachments, and return all topics.
 
-    A bag that is cut short is copied as far as it goes.
+    Definitions are copied as they stand, so that no type need be installed. A bag that is cut short is copied as far as
+    it goes.
 
     Raises
     ------
     BagError
-        The bag cannot be read, or the type of a message is not installed.
+        The bag cannot be read.
     """
-    known = set()
+    copied = {}  # topic, type and encoding -> channel in the new bag; nothing forbids several types on one topic
     for record in raw_records(path):
         if isinstance(record, Attachment) and attached(record.name):
             writer.copy_attachment(record)
         if not isinstance(record, RawMessage):
             continue
-        if record.topic not in known:
-            known.add(record.topic)
-            _announce(record, writer)
+        kind = record.topic, record.type_name, record.channel.message_encoding
+        if kind not in copied:
+            # what is left out may be written anew, and then with the definitions of here
+            schema = record.schema if wanted(record.topic) else _installed(record.schema)
+            copied[kind] = writer.copy_topic(schema, record.channel)
         if record.message is not None and wanted(record.topic):
-            writer.write(record.topic, record.message.log_time, record.message.data)
-    return known
+            writer.copy_message(copied[kind], record.message)
+    return {topic for topic, *_ in copied}
 
 
-def _announce(record, writer):
-    offered = record.channel.metadata
-    qos = yaml.safe_load(offered.get("offered_qos_profiles", "[]"))
+def _installed(schema):
+    """Return the installed definition of a schema's type; the given one if there is none."""
     try:
-        writer.add_topic(record.topic, record.type_name, qos, offered.get("topic_type_hash", ""))
-    except LookupError:
-        raise BagError(f"the type {record.type_name} of {record.topic} is not installed here") from None
+        return schema and Schema(schema.id, schema_text(schema.name).encode(), "ros2msg", schema.name)
+    except (LookupError, OSError, ValueError):  # no such package, no such message, a name that is none of a message
+        return schema

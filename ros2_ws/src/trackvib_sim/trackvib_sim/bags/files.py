@@ -18,7 +18,7 @@ def bag_files(path):
     path = Path(path)
     if path.is_file():
         return [path]
-    files = sorted(path.glob("*.mcap"), key=lambda each: (len(each.name), each.name))
+    files = sorted(filter(Path.is_file, path.glob("*.mcap")), key=lambda each: (len(each.name), each.name))
     if not files:
         inside = path / "bag"
         hint = f"; did you mean {str(inside)!r}?" if inside.is_dir() else ""  # of a run's folder

@@ -44,6 +44,8 @@ def _information(summaries):
     topics, counts = {}, Counter()
     for summary in summaries.values():
         for channel, type_name, count in channels(summary):
+            if channel.message_encoding != "cdr":
+                continue  # no topic of ROS; readers refuse the whole bag for it
             topics.setdefault(channel.topic, (type_name, channel))
             counts[channel.topic] += count
     return {
@@ -56,7 +58,7 @@ def _information(summaries):
                     "name": topic,
                     "type": type_name,
                     "serialization_format": channel.message_encoding,
-                    "offered_qos_profiles": yaml.safe_load(channel.metadata.get("offered_qos_profiles", "")) or [],
+                    "offered_qos_profiles": _offered_qos(channel),
                     "type_description_hash": channel.metadata.get("topic_type_hash", ""),
                 },
                 "message_count": counts[topic],
@@ -70,6 +72,15 @@ def _information(summaries):
         "custom_data": None,
         "ros_distro": "jazzy",
     }
+
+
+def _offered_qos(channel):
+    """Return a channel's QoS records; none where there is no readable text of them."""
+    try:
+        told = yaml.safe_load(channel.metadata.get("offered_qos_profiles", ""))
+    except (yaml.YAMLError, ValueError, LookupError, AttributeError, RecursionError):
+        return []  # of other tools it may be anything
+    return told if isinstance(told, list) else []
 
 
 def _span(statistics):

@@ -13,21 +13,30 @@ from .writing import BagError
 class RawMessage(NamedTuple):
     """A message, or that a topic is announced."""
 
-    topic: str
-    type_name: str
+    schema: Schema | None  # None where the topic has no definition
     channel: Channel  # with what the publisher offered, in its metadata
     message: Message | None  # None where the topic is announced
+
+    @property
+    def topic(self):
+        return self.channel.topic
+
+    @property
+    def type_name(self):
+        """Name of the type, "" where none is told."""
+        return self.schema.name if self.schema else ""
 
 
 def raw_records(path):
     """Yield a `RawMessage` for each message and each announcement of a bag, and mcap's records of everything else.
 
-    Nothing is held in memory. Chunks that are damaged are left out, and a bag that is cut short ends where it does.
+    Nothing is held in memory. Chunks that are damaged are left out, and a bag that is cut short ends where it does; a
+    file that is no MCAP file ends at once.
 
     Raises
     ------
     BagError
-        There is no such bag, or it cannot be read at all.
+        There is no such bag, or the system cannot read a file of it.
     """
     for file in bag_files(path):
         schemas, channels = {}, {}  # each file has numbers of its own
@@ -35,9 +44,9 @@ def raw_records(path):
             with file.open("rb") as stream:
                 for record in Salvage(stream, file.stat().st_size).records():
                     if isinstance(record, Schema):
-                        schemas[record.id] = record.name
+                        schemas[record.id] = record
                     elif isinstance(record, Channel):
-                        channels[record.id] = record.topic, schemas.get(record.schema_id, ""), record
+                        channels[record.id] = schemas.get(record.schema_id), record
                         yield RawMessage(*channels[record.id], None)
                     elif not isinstance(record, Message):
                         yield record

@@ -7,9 +7,7 @@ from collections import Counter
 from pathlib import Path
 
 import numpy as np
-from mcap.exceptions import McapError
 from rosbags.serde import SerdeError
-from zstandard import ZstdError
 
 from ..simulation.settings import NANO
 from .cdr_layout import type_store
@@ -17,6 +15,7 @@ from .columns import Columns, Topic
 from .files import bag_files
 from .mcap_chunks import PartedFile, take_apart
 from .recording import Answers, Inertial, Mounts, Odometry, Recording, Told
+from .salvage import DAMAGE
 from .writing import BagError
 
 _SENSOR = Columns("sensor_msgs/msg/Imu", Inertial, {
@@ -46,9 +45,12 @@ _RARE = {  # read message by message
     "road_profile": "trackvib_msgs/msg/RoadProfile",
 }
 _TYPES = {end: columns.type_name for end, columns in COLUMNS.items()} | _RARE
+_NO_SCHEMA = 0  # id with which MCAP marks a channel without a definition, of a JSON log for instance
 _ANSWERS = ("accepted", "late", "duplicate", "not_finite")  # to samples that were out, among the diagnostics
-# mcap raises plain ValueErrors as well, lz4 RuntimeErrors
-_READ_ERRORS = (OSError, McapError, ZstdError, SerdeError, ValueError, RuntimeError)
+# lz4 raises RuntimeErrors; a definition that is damaged or not the one we know gives the others where it is applied
+_READ_ERRORS = (
+    OSError, *DAMAGE, SerdeError, RuntimeError, LookupError, OverflowError, AssertionError, AttributeError, TypeError,
+)  # fmt: skip
 
 
 def read_recording(path, follow=lambda done, total: None):
@@ -74,10 +76,13 @@ def read_recording(path, follow=lambda done, total: None):
         for file in files:
             reading.read(file, lambda end, before=done: follow(before + end, total))
             done += file.stat().st_size
+        recording = reading.recording(path)
+    except BagError:
+        raise
     except _READ_ERRORS as error:
         raise BagError(f"bag {str(path)!r} cannot be read: {str(error) or type(error).__name__}") from None
     follow(total, total)
-    return reading.recording(path)
+    return recording
 
 
 class _Reading:
@@ -98,13 +103,13 @@ class _Reading:
                 for channel_id in np.unique(messages.channel).tolist():
                     channel = channels.get(channel_id)
                     schema = schemas.get(channel.schema_id) if channel else None
-                    if schema is None:
+                    if channel is None or (schema is None and channel.schema_id != _NO_SCHEMA):
                         raise ValueError(f"messages on channel {channel_id}, which nothing announces")
                     of_channel = messages.channel == channel_id
                     start, size = messages.start[of_channel], messages.size[of_channel]
                     self._counts[channel.topic] += len(start)
                     end = next((end for end in _TYPES if f"/{channel.topic}".endswith(f"/{end}")), None)
-                    if end is not None and schema.name == _TYPES[end]:
+                    if end is not None and schema is not None and schema.name == _TYPES[end]:
                         if schema.id not in stores:
                             stores[schema.id] = type_store(schema.name, schema.encoding, schema.data)
                         self._take(channel.topic, end, stores[schema.id], part.data, start, size)

@@ -79,8 +79,13 @@ def _repair_file(file, told):
             with part.open("wb") as target:
                 whole = chain(_announced(file), salvage.records())
                 messages = _copy(whole, target, compression, lambda: told(stream.tell(), size))
-            file.rename(original)
-            part.replace(file)
+            try:
+                file.rename(original)
+                part.replace(file)
+            except BaseException:
+                if original.exists() and not file.exists():  # in between: a bag must not be left without its file
+                    original.rename(file)
+                raise
         finally:
             part.unlink(missing_ok=True)
     return RepairedFile(file, messages, salvage.unread, salvage.damaged_chunks, original)

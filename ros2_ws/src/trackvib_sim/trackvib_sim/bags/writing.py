@@ -61,6 +61,20 @@ class BagWriter:
         metadata = {"offered_qos_profiles": to_yaml(qos), "topic_type_hash": type_hash}
         self._channels[topic] = self._mcap.register_channel(topic, "cdr", schema, metadata)
 
+    def copy_topic(self, schema, channel):
+        """Announce a topic as in another bag, by mcap's records; returns its channel here, for `copy_message`.
+
+        `schema` is None for a topic without a definition.
+        """
+        schema_id = self._mcap.register_schema(schema.name, schema.encoding, schema.data) if schema else 0
+        copy = self._mcap.register_channel(channel.topic, channel.message_encoding, schema_id, channel.metadata)
+        self._channels.setdefault(channel.topic, copy)
+        return copy
+
+    def copy_message(self, channel, message):
+        """Write a message of another bag, an `mcap.records.Message`, on a channel that `copy_topic` returned."""
+        self._mcap.add_message(channel, message.log_time, message.data, message.publish_time, message.sequence)
+
     def write(self, topic, stamp, data):
         """Write one serialised message of an announced topic; `stamp` is its time [ns]."""
         self._mcap.add_message(self._channels[topic], stamp, data, publish_time=stamp)

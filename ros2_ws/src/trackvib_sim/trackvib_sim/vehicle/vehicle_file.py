@@ -36,7 +36,8 @@ def load_vehicle(text, name):
     """
     try:
         return yaml.load(text, _Loader)  # noqa: S506, a safe one
-    except (yaml.YAMLError, ValueError) as error:  # the latter from impossible dates
+    # all but the first from tagged values that PyYAML does not check: impossible dates, `!!bool x`, `!!int ''`
+    except (yaml.YAMLError, ValueError, LookupError, AttributeError, OverflowError) as error:
         raise VehicleFileError(f"{name}: not a YAML file: {error}") from None
     except RecursionError:
         raise VehicleFileError(f"{name}: not a vehicle file: nested too deeply") from None
