@@ -15,14 +15,13 @@ import pytest
 import rclpy
 from ament_index_python.packages import get_package_prefix
 from diagnostic_msgs.msg import DiagnosticArray
-from mcap.reader import make_reader
 from mr_mount_controller.shared_memory import remove_unfinished_segments
 from rclpy.experimental import EventsExecutor
 from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import Trigger
 from trackvib_sim.nodes.processes import end_with_parent
 
-from .edited_bags import edit_bag
+from .bag_helpers import edit_bag
 
 PACKAGES = {
     "simulator": "trackvib_sim",
@@ -237,15 +236,3 @@ def observer(domain):
 def start_cli(start):
     """Start the command line: `start_cli("run", "--speed", 5)`."""
     return lambda *arguments: start([sys.executable, "-m", "trackvib_sim.cli", *arguments])
-
-
-@pytest.fixture
-def attachment():
-    """Read what is attached to a bag of one file: `attachment(folder, name)` returns the text of the last one."""
-
-    def read(folder, name):
-        (file,) = folder.glob("*.mcap")
-        with file.open("rb") as stream:
-            return [each.data.decode() for each in make_reader(stream).iter_attachments() if each.name == name][-1]
-
-    return read

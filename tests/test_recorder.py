@@ -26,6 +26,8 @@ from trackvib_sim.installed import default_vehicle_file
 from trackvib_sim.nodes.messages import ImuMessage, MountMessage
 from trackvib_sim.vehicle.mr_mounts import new_mount_sample
 
+from .bag_helpers import attachment
+
 STREAM = Path(__file__).parent / "imu_stream.py"
 LOOP_TOPICS = ("/chassis/imu", "/powertrain/imu", "/coil_current", "/mount_state")
 SECOND, MS = 1_000_000_000, 1_000_000  # ns
@@ -175,7 +177,7 @@ def test_topics_by_pattern_are_taken_up_when_they_appear(start, start_node, tmp_
     assert found.provenance.count("parameters of /imu_stream") == 1
 
 
-def test_bag_says_what_made_it(start_node, start, tmp_path, attachment):
+def test_bag_says_what_made_it(start_node, start, tmp_path):
     """Vehicle file and parameters lie in it as files; the parameters start the same nodes again."""
     start_node("road_excitation", seed=7, road_class="C")
     start_node("controller", law="skyhook", firm_current=2.5, wait_for_recorder=True)

@@ -23,6 +23,8 @@ from trackvib_sim.simulation.simulation import Simulation
 from trackvib_sim.vehicle.system import Operation
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
+from .bag_helpers import attachment
+
 pytestmark = pytest.mark.system
 
 
@@ -57,7 +59,7 @@ def test_a_rerun_is_the_run_under_that_law(rerun):
     np.testing.assert_array_equal(drive.answers.current, record.current)
 
 
-def test_a_rerun_leaves_a_whole_bag(rerun, recorded_run, attachment):
+def test_a_rerun_leaves_a_whole_bag(rerun, recorded_run):
     """With all topics of the recorded one, its own law in the provenance, and fit to be verified itself."""
     old, new = read_recording(recorded_run / "bag"), read_recording(rerun / "bag")
     before, after = counts(recorded_run / "bag"), counts(rerun / "bag")

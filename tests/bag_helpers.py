@@ -1,5 +1,6 @@
-"""Bags with a few of their messages or metadata records changed."""
+"""Bags with a few of their messages or metadata records changed, and what is attached to a bag."""
 
+from mcap.reader import make_reader
 from mcap.records import Metadata
 from mcap.writer import Writer
 from trackvib_sim.bags.raw_messages import RawMessage, raw_records
@@ -32,3 +33,10 @@ def edit_bag(bag, folder, message=lambda topic, data: data, provenance=lambda na
                     writer.add_metadata(record.name, values)
         writer.finish()
     return folder
+
+
+def attachment(bag, name):
+    """Return the text of the last attachment of a name to a bag of one file."""
+    (file,) = bag.glob("*.mcap")
+    with file.open("rb") as stream:
+        return [each.data.decode() for each in make_reader(stream).iter_attachments() if each.name == name][-1]
