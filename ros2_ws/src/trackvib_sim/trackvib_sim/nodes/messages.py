@@ -18,9 +18,11 @@ def message_type(name):
     Raises
     ------
     ValueError
-        It is not installed here.
+        It is not installed here, or is a part of a service or an action, of which there is no definition to go along.
     """
     package, kind, message = name.split("/")
+    if kind != "msg":
+        raise ValueError(f"{name} is no message type")
     try:
         return getattr(import_module(f"{package}.{kind}"), message)
     except (ImportError, AttributeError):
