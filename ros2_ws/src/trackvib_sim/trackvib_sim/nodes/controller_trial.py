@@ -14,6 +14,7 @@ from trackvib_msgs.msg import CoilCurrent
 from ..simulation.exchange import Exchange
 from ..simulation.settings import NANO
 from . import topics
+from .interrupts import put_off_interrupts
 from .partners import Gathering
 
 _ANSWER_TIMEOUT = 1.0  # s of wall time after which the controller is silent
@@ -56,7 +57,7 @@ class ControllerTrial:
         gathering = Gathering(self._present)
         while not gathering.complete():
             check()
-            self._executor.spin_once(timeout_sec=_TICK)
+            self._spin(_TICK)
 
     def type_hash(self):
         """Return the hash of the answers' type, as bags note it."""
@@ -71,15 +72,19 @@ class ControllerTrial:
         exchange.publish(stamp)
         for publisher, data in zip(self._imus, (chassis, powertrain), strict=True):
             publisher.publish(data)
-        self._executor.spin_once(timeout_sec=0.0)
+        self._spin(0.0)
         if self._given_up is None or self._heard > self._given_up:
             self._given_up = None
             end = time.monotonic() + _ANSWER_TIMEOUT
             while not exchange.answered and (left := end - time.monotonic()) > 0.0:
-                self._executor.spin_once(timeout_sec=min(left, _TICK))
+                self._spin(min(left, _TICK))
             if not exchange.answered:
                 self._given_up = self._heard
         return self._latest if exchange.answered else None
+
+    def _spin(self, timeout):
+        with put_off_interrupts():
+            self._executor.spin_once(timeout_sec=timeout)
 
     def _present(self):
         listeners = sum(publisher.get_subscription_count() for publisher in self._imus)

@@ -7,6 +7,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from mr_mount_controller.node_support import start_ros
 from rclpy.experimental import EventsExecutor
 
+from .interrupts import put_off_interrupts
 from .topics import CHASSIS_IMU, DIAGNOSTICS
 
 _LISTENING = 0.7  # s in which nodes that are there make themselves known
@@ -33,15 +34,19 @@ class Watch:
         """Listen for a moment; returns whether a simulator already runs in this ROS domain."""
         end = time.monotonic() + _LISTENING
         while time.monotonic() < end:
-            self._executor.spin_once(timeout_sec=_LISTENING / 10)
+            self._spin(_LISTENING / 10)
             if self._node.count_publishers(CHASSIS_IMU):
                 return True
         return False
 
     def look(self, timeout):
         """Wait at most `timeout` seconds for news; returns the latest values as text, empty before the first."""
-        self._executor.spin_once(timeout_sec=timeout)
+        self._spin(timeout)
         return self._values
+
+    def _spin(self, timeout):
+        with put_off_interrupts():
+            self._executor.spin_once(timeout_sec=timeout)
 
     def _on_diagnostics(self, message):
         for status in message.status:
