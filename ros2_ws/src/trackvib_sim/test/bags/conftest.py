@@ -7,6 +7,8 @@ from trackvib_sim.bags.qos import qos_record
 from trackvib_sim.bags.writing import BagWriter
 from trackvib_sim.nodes.messages import ImuMessage
 
+from . import made_bags
+
 TOPIC = "/chassis/imu"
 QOS = [qos_record(LOOP_WRITER_QOS)]
 
@@ -33,3 +35,11 @@ def write_bag():
         return written
 
     return make
+
+
+@pytest.fixture(scope="session")
+def bag(tmp_path_factory):
+    """A bag of all topics of the loop, which nobody changes."""
+    path = tmp_path_factory.mktemp("bags") / "bag"
+    made_bags.write_bag(path, made_bags.PERIODS, vehicle="engine: none")
+    return path

@@ -12,6 +12,7 @@ from trackvib_sim.simulation.settings import NANO
 from trackvib_sim.vehicle.mr_mounts import new_mount_sample
 
 PERIOD = NANO // 1000
+PERIODS = 2500  # of the shared bag: three chunks
 TYPES = {
     "chassis/imu": "sensor_msgs/msg/Imu",
     "powertrain/imu": "sensor_msgs/msg/Imu",
