@@ -108,7 +108,7 @@ class _Reading:
                     of_channel = messages.channel == channel_id
                     start, size = messages.start[of_channel], messages.size[of_channel]
                     self._counts[channel.topic] += len(start)
-                    end = next((end for end in _TYPES if f"/{channel.topic}".endswith(f"/{end}")), None)
+                    end = _end_of(channel.topic)
                     if end is not None and schema is not None and schema.name == _TYPES[end]:
                         if schema.id not in stores:
                             stores[schema.id] = type_store(schema.name, schema.encoding, schema.data)
@@ -144,7 +144,9 @@ class _Reading:
 
     def recording(self, path):
         """Return it all."""
-        found = {end: [topic for topic in self._columns if f"/{topic}".endswith(f"/{end}")] for end in _NEEDED}
+        found = {end: [] for end in _TYPES}
+        for topic in self._columns | self._roads | self._vehicles:
+            found[_end_of(topic)].append(topic)
         missing = [end for end in _NEEDED if not found[end]]
         if missing:
             raise BagError(f"bag {str(path)!r} holds no {_SENSOR.type_name} on {', '.join(missing)}")
@@ -152,12 +154,11 @@ class _Reading:
         if any(found[end] != [f"{space}{end}"] for end in _NEEDED):
             several = ", ".join(topic for end in _NEEDED for topic in found[end])
             raise BagError(f"bag {str(path)!r} holds sensors of several vehicles, must be one: {several}")
-        everything = self._columns | self._roads | self._vehicles
-        topics = {}
-        for end in _TYPES:
-            candidates = [topic for topic in everything if f"/{topic}".endswith(f"/{end}")]
-            if candidates:
-                topics[end] = next((topic for topic in candidates if topic == f"{space}{end}"), candidates[0])
+        topics = {
+            end: f"{space}{end}" if f"{space}{end}" in candidates else candidates[0]
+            for end, candidates in found.items()
+            if candidates
+        }
         columns = {end: self._columns[topics[end]].columns() if end in topics else None for end in COLUMNS}
         # the first word of the next run may be among the last ones of this
         told = np.array(sorted(self._told), np.int64).reshape(-1, 3)
@@ -177,3 +178,8 @@ class _Reading:
             counts=self._counts,
             complete=self._complete,
         )
+
+
+def _end_of(topic):
+    """Return by which of the known ends a topic is known; None by none."""
+    return next((end for end in _TYPES if f"/{topic}".endswith(f"/{end}")), None)
