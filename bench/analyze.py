@@ -28,8 +28,8 @@ from rosbags.highlevel import AnyReader
 from trackvib_msgs.msg import RoadProfile
 from trackvib_sim.analysis.bag_analysis import analyse
 from trackvib_sim.analysis.bag_tables import write_tables
-from trackvib_sim.analysis.report.excerpt import excerpt
 from trackvib_sim.analysis.report.page import write_report
+from trackvib_sim.analysis.report.report_data import build_report_data
 from trackvib_sim.bags.cdr_layout import find_layout, type_store
 from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.bags.schemas import schema_text
@@ -165,7 +165,7 @@ def main(minutes):
         analysis = analyse(recording)
         measured = watch.lap()
         write_tables([analysis], Path(place))
-        write_report([excerpt(recording, analysis)], Path(place) / "report.html")
+        write_report([build_report_data(recording, analysis)], Path(place) / "report.html")
         written = watch.lap()
         memory.stop()
     table = Table(title="an analysis, and the peer's reading alone, of all messages")

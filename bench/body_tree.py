@@ -16,15 +16,15 @@ from peers import DrakeTree, MujocoTree, PinocchioTree
 from rich.console import Console
 from rich.progress import track
 from rich.table import Table
-from trackvib_sim.installed import default_vehicle_file
-from trackvib_sim.rui.compiled import kernel
-from trackvib_sim.rui.cuts import new_cuts, open_cuts
-from trackvib_sim.rui.kinematics import new_motion, update_motion
-from trackvib_sim.rui.riccati import new_response, solve_accelerations
+from trackvib_sim.data import default_vehicle_file
+from trackvib_sim.numerics.compiled import kernel
 from trackvib_sim.rui.solve import accelerations
 from trackvib_sim.rui.state import no_loads, rest_state
-from trackvib_sim.rui.tree import build_tree, new_rows, to_lanes
-from trackvib_sim.vehicle.body_tree import body_table
+from trackvib_sim.rui.sweeps.articulated import new_cuts, open_cuts
+from trackvib_sim.rui.sweeps.kinematics import new_motion, update_motion
+from trackvib_sim.rui.sweeps.riccati import new_response, solve_accelerations
+from trackvib_sim.rui.sweeps.tree import build_tree, new_rows, to_lanes
+from trackvib_sim.vehicle.body_tree import build_body_table
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
 GRAVITY = (0.0, 0.0, -9.81)
@@ -71,7 +71,7 @@ def random_state(bodies, random):
     state = rest_state(bodies)
     attitude = random.normal(size=4)
     state.attitude[0] = attitude / np.linalg.norm(attitude)
-    for part in (state.position, state.velocity, state.rate, state.hinge_rate):
+    for part in (state.position, state.velocity, state.angular_velocity, state.hinge_rate):
         part[...] = random.normal(size=part.shape)
     state.hinge[:] = 0.5 * random.normal(size=len(bodies))
     return state, 1e3 * random.normal(size=len(bodies))
@@ -80,7 +80,7 @@ def random_state(bodies, random):
 def main():
     """Check, time, print; exit code 1 if the engines do not agree."""
     out = Console()
-    bodies = body_table(read_vehicle(default_vehicle_file())[0])
+    bodies = build_body_table(read_vehicle(default_vehicle_file())[0])
     installed = {name: peer for name, peer in PEERS.items() if importlib.util.find_spec(name)}
     for name in PEERS.keys() - installed.keys():
         package = name.removeprefix("py")

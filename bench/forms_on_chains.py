@@ -12,8 +12,8 @@ from machine import machine
 from peers import PinocchioTree
 from rich.console import Console
 from rich.table import Table
-from trackvib_sim.rui.exchange import form_x
-from trackvib_sim.rui.overall import form_a, overall_transfer
+from trackvib_sim.rui.reference.form_a import form_a, overall_transfer
+from trackvib_sim.rui.reference.form_x import form_x
 from trackvib_sim.rui.solve import accelerations
 from trackvib_sim.rui.state import no_loads, rest_state
 from trackvib_sim.rui.table import Body, Hinge

@@ -1,10 +1,10 @@
 """Inverse dynamics by Newton and Euler: the manufactured solution that `scaling.py` measures accuracy with."""
 
 import numpy as np
-from trackvib_sim.rui.cells import columns
-from trackvib_sim.rui.compiled import kernel
-from trackvib_sim.rui.kinematics import HINGE_AXIS, LEVER, RATE, ROTATION
-from trackvib_sim.rui.spatial import add, cross, dot, load3, rotate, scale
+from trackvib_sim.numerics.compiled import kernel
+from trackvib_sim.numerics.spatial import add, cross, dot, load3, rotate, scale
+from trackvib_sim.rui.sweeps.cells import columns
+from trackvib_sim.rui.sweeps.kinematics import MotionOffset
 
 
 def required_torques(bodies, motion, hinge_rate, hinge_acceleration, gravity):
@@ -12,11 +12,14 @@ def required_torques(bodies, motion, hinge_rate, hinge_acceleration, gravity):
 
     For a chain of revolute hinges in the order of its table, one body a row. Force and moment act at the root's origin.
     """
-    turn = columns(motion, ROTATION, 9).reshape(-1, 3, 3)
+    turn = columns(motion, MotionOffset.ROTATION, 9).reshape(-1, 3, 3)
     centre = np.einsum("nij,nj->ni", turn, np.array([body.centre for body in bodies], dtype=float))
     inertia = turn @ np.array([body.inertia for body in bodies], dtype=float) @ turn.transpose(0, 2, 1)
     mass = np.array([body.mass for body in bodies], dtype=float)
-    lever, axis, rate = (columns(motion, quantity, 3) for quantity in (LEVER, HINGE_AXIS, RATE))
+    lever, axis, rate = (
+        columns(motion, quantity, 3)
+        for quantity in (MotionOffset.LEVER, MotionOffset.HINGE_AXIS, MotionOffset.ANGULAR_VELOCITY)
+    )
     n = len(bodies)
     force, moment, torques = np.zeros((n + 1, 3)), np.zeros((n + 1, 3)), np.zeros(n)
     a, al = np.zeros((n, 3)), np.zeros((n, 3))

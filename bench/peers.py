@@ -1,6 +1,6 @@
 """The same tree in other engines: Pinocchio, MuJoCo and Drake, each behind the same two methods.
 
-Every peer is made from a table of bodies (`trackvib_sim.rui.table`; revolute and slide hinges, one free root).
+Every peer is made from a table of bodies (`trackvib_sim.rui.table`; revolute and prismatic hinges, one free root).
 `accelerations(state, torque)` takes coordinates in the order of the table (`trackvib_sim.rui.state`) and returns
 (6 + hinges,): acceleration of the root's origin, its angular acceleration (global axes), hinge accelerations.
 `calls(count)` returns functions, by name, that evaluate the last state `count` times.
@@ -42,7 +42,7 @@ class PinocchioTree:
         pin, axis = self._pin, np.array(hinge.axis, dtype=float)
         special = {
             "revolute": (pin.JointModelRX, pin.JointModelRY, pin.JointModelRZ, pin.JointModelRevoluteUnaligned),
-            "slide": (pin.JointModelPX, pin.JointModelPY, pin.JointModelPZ, pin.JointModelPrismaticUnaligned),
+            "prismatic": (pin.JointModelPX, pin.JointModelPY, pin.JointModelPZ, pin.JointModelPrismaticUnaligned),
         }[hinge.kind]
         for k in range(3):
             if np.array_equal(axis, np.eye(3)[k]):
@@ -53,11 +53,11 @@ class PinocchioTree:
         """See the module."""
         turn = Rotation.from_quat(np.roll(state.attitude[0], -1))
         self._q[:3], self._q[3:7] = state.position[0], turn.as_quat()
-        self._v[:3], self._v[3:6] = turn.inv().apply(state.velocity[0]), turn.inv().apply(state.rate[0])
+        self._v[:3], self._v[3:6] = turn.inv().apply(state.velocity[0]), turn.inv().apply(state.angular_velocity[0])
         q, v = self._hinge
         self._q[q], self._v[v], self._tau[v] = state.hinge[1:], state.hinge_rate[1:], torque[1:]
         a = self._pin.aba(self._model, self._data, self._q, self._v, self._tau)
-        linear = turn.apply(a[:3]) + np.cross(state.rate[0], state.velocity[0])
+        linear = turn.apply(a[:3]) + np.cross(state.angular_velocity[0], state.velocity[0])
         return np.concatenate((linear, turn.apply(a[3:6]), a[v]))
 
     def calls(self, count):
@@ -86,7 +86,7 @@ class MujocoTree:
         spec = mujoco.MjSpec()
         spec.option.gravity = gravity
         spec.option.disableflags = mujoco.mjtDisableBit.mjDSBL_CONTACT
-        kinds = {"revolute": mujoco.mjtJoint.mjJNT_HINGE, "slide": mujoco.mjtJoint.mjJNT_SLIDE}
+        kinds = {"revolute": mujoco.mjtJoint.mjJNT_HINGE, "prismatic": mujoco.mjtJoint.mjJNT_SLIDE}
         made = {}
         for body in bodies:
             hinge, i = body.hinge, np.array(body.inertia, dtype=float)
@@ -109,7 +109,10 @@ class MujocoTree:
         """See the module."""
         data, turn, (q, v) = self._data, Rotation.from_quat(np.roll(state.attitude[0], -1)), self._hinge
         data.qpos[:3], data.qpos[3:7] = state.position[0], state.attitude[0]
-        data.qvel[:3], data.qvel[3:6] = state.velocity[0], turn.inv().apply(state.rate[0])  # the rate in body axes
+        data.qvel[:3], data.qvel[3:6] = (
+            state.velocity[0],
+            turn.inv().apply(state.angular_velocity[0]),
+        )  # the rate in body axes
         data.qpos[q], data.qvel[v], data.qfrc_applied[v] = state.hinge[1:], state.hinge_rate[1:], torque[1:]
         self._mujoco.mj_forward(self._model, data)
         return np.concatenate((data.qacc[:3], turn.apply(data.qacc[3:6]), data.qacc[v]))
@@ -143,7 +146,7 @@ class DrakeTree:
 
         self._plant = plant = MultibodyPlant(time_step=0.0)
         plant.mutable_gravity_field().set_gravity_vector(np.array(gravity, dtype=float))
-        kinds = {"revolute": tree.RevoluteJoint, "slide": tree.PrismaticJoint}
+        kinds = {"revolute": tree.RevoluteJoint, "prismatic": tree.PrismaticJoint}
         for body in bodies:
             i, centre = np.array(body.inertia, dtype=float), np.array(body.centre, dtype=float)
             central = tree.RotationalInertia(i[0, 0], i[1, 1], i[2, 2], i[0, 1], i[0, 2], i[1, 2])
@@ -170,7 +173,7 @@ class DrakeTree:
         plant, x, (q, v) = self._plant, self._x, self._hinge
         p = plant.num_positions()
         x[:4], x[4:7], x[p : p + 3], x[p + 3 : p + 6] = (
-            state.attitude[0], state.position[0], state.rate[0], state.velocity[0],
+            state.attitude[0], state.position[0], state.angular_velocity[0], state.velocity[0],
         )  # fmt: skip
         x[q], x[v] = state.hinge[1:], state.hinge_rate[1:]
         applied = np.zeros(plant.num_velocities())

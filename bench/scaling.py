@@ -21,14 +21,14 @@ from peers import MujocoTree
 from rich.console import Console
 from rich.progress import track
 from rich.table import Table
-from trackvib_sim.rui.cells import columns
-from trackvib_sim.rui.compiled import kernel
-from trackvib_sim.rui.cuts import apply_wrench, new_cuts, open_cuts
-from trackvib_sim.rui.kinematics import new_motion, update_motion
-from trackvib_sim.rui.riccati import HINGE, new_response, solve_accelerations
+from trackvib_sim.numerics.compiled import kernel
 from trackvib_sim.rui.state import rest_state
+from trackvib_sim.rui.sweeps.articulated import apply_wrench, new_cuts, open_cuts
+from trackvib_sim.rui.sweeps.cells import columns
+from trackvib_sim.rui.sweeps.kinematics import new_motion, update_motion
+from trackvib_sim.rui.sweeps.riccati import ResponseOffset, new_response, solve_accelerations
+from trackvib_sim.rui.sweeps.tree import build_tree, new_rows, to_lanes
 from trackvib_sim.rui.table import Body, Hinge
-from trackvib_sim.rui.tree import build_tree, new_rows, to_lanes
 
 GRAVITY = (0.0, 0.0, -9.81)
 SIZES = [10, 30, 100, 300, 1000, 3000, 10_000, 30_000, 100_000, 300_000, 1_000_000]
@@ -93,7 +93,7 @@ def measure(parent_of, dof, accuracy, with_peer, random):
         torques[:], force, moment = required_torques(bodies, motion, rate, wanted, GRAVITY)
         torques[0] = 0.0
         evaluate(tree, state, torques, tuple(force), tuple(moment), motion, cuts, response, 1)
-        found = columns(response, HINGE, 1)[:, 0]
+        found = columns(response, ResponseOffset.HINGE, 1)[:, 0]
         error = abs(found[-1] - wanted[-1]) / np.abs(wanted).max()
     return times.pop("ours"), size, min(times.values(), default=None), error
 

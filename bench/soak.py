@@ -14,10 +14,9 @@ import tempfile
 import click
 from machine import machine
 from rich.progress import Progress
-from trackvib_sim.installed import closed_loop_parameters
-from trackvib_sim.nodes.processes import FOUR_PROCESSES, LoopProcesses
+from trackvib_sim.nodes.processes import FOUR_PROCESSES, LoopProcesses, closed_loop_parameters
 from trackvib_sim.nodes.watch import Watch
-from trackvib_sim.simulation.exchange import OUTCOMES
+from trackvib_sim.simulation.lockstep import OUTCOMES
 
 RATE = 1000  # Hz
 LOOK = 0.2  # s

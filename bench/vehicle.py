@@ -12,12 +12,12 @@ from machine import best_times, machine
 from peers import PinocchioTree
 from rich.console import Console
 from rich.table import Table
-from trackvib_sim.installed import default_vehicle_file
+from trackvib_sim.data import default_vehicle_file
 from trackvib_sim.road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road
 from trackvib_sim.rui.state import rest_state
 from trackvib_sim.simulation.settings import Rates, RunSettings
 from trackvib_sim.simulation.simulation import Simulation
-from trackvib_sim.vehicle.body_tree import body_table
+from trackvib_sim.vehicle.body_tree import build_body_table
 from trackvib_sim.vehicle.system import Operation
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
@@ -49,7 +49,7 @@ class Drive:
 def main():
     """Drive, time, print."""
     vehicle, _ = read_vehicle(default_vehicle_file())
-    bodies = body_table(vehicle)
+    bodies = build_body_table(vehicle)
     drive = Drive(vehicle)
     peers = {"tree": PinocchioTree(bodies, GRAVITY), "one body": PinocchioTree(bodies[:1], GRAVITY)}
     for name, peer in peers.items():

@@ -15,7 +15,7 @@ import pytest
 import rclpy
 from ament_index_python.packages import get_package_prefix
 from diagnostic_msgs.msg import DiagnosticArray
-from mr_mount_controller.shared_memory import remove_unfinished_segments
+from mr_mount_controller.node_base.shared_memory import remove_unfinished_segments
 from rclpy.experimental import EventsExecutor
 from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import Trigger

@@ -9,7 +9,7 @@ import sys
 import time
 
 import rclpy
-from mr_mount_controller.node_support import LOOP_WRITER_QOS
+from mr_mount_controller.node_base.qos import LOOP_WRITER_QOS
 from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import Imu
 from trackvib_sim.nodes.messages import ImuMessage

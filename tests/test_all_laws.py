@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from mr_mount_controller.laws import find_law, known_laws
 from trackvib_sim.bags.reading import read_recording
-from trackvib_sim.installed import default_vehicle_file
+from trackvib_sim.data import default_vehicle_file
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.closed_loop import run_closed_loop
 from trackvib_sim.simulation.settings import Rates, RunSettings
@@ -62,6 +62,6 @@ def test_three_ways_one_result(simulation, run_nodes, law):
         for k, sensor in enumerate((drive.chassis, drive.powertrain)):
             np.testing.assert_array_equal(sensor.stamp, record.stamp)
             np.testing.assert_array_equal(sensor.specific_force, record.specific_force[:, k])
-            np.testing.assert_array_equal(sensor.rate, record.rate[:, k])
+            np.testing.assert_array_equal(sensor.angular_velocity, record.angular_velocity[:, k])
         np.testing.assert_array_equal(drive.answers.sample_stamp, record.stamp)
         np.testing.assert_array_equal(drive.answers.current, record.current)

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from mr_mount_controller.node_support import LOOP_WRITER_QOS
+from mr_mount_controller.node_base.qos import LOOP_WRITER_QOS
 from trackvib_sim.bags.qos import qos_record
 from trackvib_sim.bags.writing import BagWriter
 from trackvib_sim.nodes.messages import ImuMessage

@@ -1,7 +1,7 @@
 """`trackvib bag info` and `trackvib bag repair`, as a user calls them."""
 
 import pytest
-from mr_mount_controller.node_support import LOOP_WRITER_QOS
+from mr_mount_controller.node_base.qos import LOOP_WRITER_QOS
 from trackvib_sim.bags.qos import qos_record
 from trackvib_sim.bags.writing import BagWriter
 from trackvib_sim.nodes.messages import ImuMessage

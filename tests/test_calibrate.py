@@ -6,7 +6,7 @@ import time
 
 import pytest
 import yaml
-from trackvib_sim.installed import default_vehicle_file
+from trackvib_sim.data import default_vehicle_file
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
 pytestmark = pytest.mark.system

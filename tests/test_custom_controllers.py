@@ -12,7 +12,7 @@ pytestmark = pytest.mark.system
 README = Path(__file__).parents[1] / "README.md"
 LAW = '''
 from mr_mount_controller.laws.base import ControlLaw
-from mr_mount_controller.parameters import Parameter
+from mr_mount_controller.node_base.parameters import Parameter
 
 
 class Mine(ControlLaw):

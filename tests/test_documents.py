@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from mr_mount_controller.node import PARAMETERS as CONTROLLER
-from trackvib_sim.nodes import topics
+from mr_mount_controller.node_base import topics
 from trackvib_sim.nodes.player import PARAMETERS as PLAYER
 from trackvib_sim.nodes.recorder import PARAMETERS as RECORDER
 from trackvib_sim.nodes.road_excitation import PARAMETERS as ROAD

@@ -5,14 +5,13 @@ import time
 
 import pytest
 from mcap.reader import make_reader
-from mr_mount_controller.node_support import LATCHED_QOS
+from mr_mount_controller.node_base.cdr import leading_stamp
+from mr_mount_controller.node_base.qos import CLOCK_QOS, LATCHED_QOS
 from rclpy.qos import QoSProfile
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu
 from std_msgs.msg import String
 from trackvib_msgs.msg import RoadProfile
-from trackvib_sim.bags.stamps import leading_stamp
-from trackvib_sim.nodes.qos import CLOCK_QOS
 
 pytestmark = pytest.mark.system
 

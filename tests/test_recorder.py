@@ -15,14 +15,14 @@ import yaml
 from builtin_interfaces.msg import Time
 from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
-from mr_mount_controller.node_support import LATCHED_QOS, LOOP_WRITER_QOS
+from mr_mount_controller.node_base.qos import LATCHED_QOS, LOOP_WRITER_QOS
 from rosbags.rosbag2 import Reader
 from sensor_msgs.msg import Imu
 from std_msgs.msg import String
 from trackvib_msgs.msg import MountState
 from trackvib_sim.bags.contents import contents
 from trackvib_sim.bags.repair import repair
-from trackvib_sim.installed import default_vehicle_file
+from trackvib_sim.data import default_vehicle_file
 from trackvib_sim.nodes.messages import ImuMessage, MountMessage
 from trackvib_sim.vehicle.mr_mounts import new_mount_sample
 

@@ -7,15 +7,15 @@ from collections import Counter
 import numpy as np
 import pytest
 from mr_mount_controller.laws.passive import Passive
+from mr_mount_controller.node_base.cdr import leading_stamp
 from rich.console import Console
 from rosbags.rosbag2 import Reader
 from trackvib_sim.bags.contents import contents
 from trackvib_sim.bags.reading import read_recording
-from trackvib_sim.bags.stamps import leading_stamp
 from trackvib_sim.bags.writing import BagWriter
-from trackvib_sim.commands.replay_law import perform
+from trackvib_sim.commands.replay_law import run_replay_law
 from trackvib_sim.commands.replay_verify import verify
-from trackvib_sim.installed import default_vehicle_file
+from trackvib_sim.data import default_vehicle_file
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.closed_loop import run_closed_loop
 from trackvib_sim.simulation.settings import Rates, RunSettings
@@ -43,7 +43,7 @@ def counts(bag):
 def rerun(recorded_run, tmp_path_factory):
     """The recorded drive under skyhook once more under the passive law: its folder."""
     folder = tmp_path_factory.mktemp("rerun") / "passive"
-    perform(recorded_run / "bag", "passive", folder, Console(quiet=True))
+    run_replay_law(recorded_run / "bag", "passive", folder, Console(quiet=True))
     return folder
 
 
@@ -104,7 +104,7 @@ def test_a_rerun_ends_with_its_road(recorded_run, tmp_path, monkeypatch):
 
     whole = replay_law.prepare_again
     monkeypatch.setattr(replay_law, "prepare_again", prepare_less)
-    perform(recorded_run / "bag", "passive", tmp_path / "out", Console(quiet=True))
+    run_replay_law(recorded_run / "bag", "passive", tmp_path / "out", Console(quiet=True))
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())["replay"]
     assert summary["ended"].startswith("the recorded road ends here") and 3.0 <= summary["duration_s"] < 3.2
 
@@ -135,7 +135,7 @@ def test_a_bag_that_begins_in_the_middle(edited, tmp_path):
     def late(topic, data):
         return None if topic.endswith(("imu", "mount_state")) and leading_stamp(data) <= 150_000_000 else data
 
-    perform(edited(late), "skyhook", tmp_path / "out", Console(quiet=True))
+    run_replay_law(edited(late), "skyhook", tmp_path / "out", Console(quiet=True))
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert {change for axes in summary["change_percent"].values() for change in axes.values()} == {0.0}
     assert summary["mounts_J"]["work"] > 0.0

@@ -5,10 +5,10 @@ import signal
 from pathlib import Path
 
 import pytest
+from mr_mount_controller.node_base.cdr import leading_stamp
 from rich.console import Console
+from trackvib_sim.bags.errors import BagError
 from trackvib_sim.bags.reading import read_recording
-from trackvib_sim.bags.stamps import leading_stamp
-from trackvib_sim.bags.writing import BagError
 from trackvib_sim.commands.replay_verify import verify
 
 pytestmark = pytest.mark.system

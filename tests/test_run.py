@@ -17,13 +17,14 @@ from rclpy.serialization import deserialize_message
 from rosbags.highlevel import AnyReader
 from rosbags.rosbag2 import Reader
 from trackvib_sim.bags.reading import read_recording
-from trackvib_sim.installed import default_vehicle_file
+from trackvib_sim.data import default_vehicle_file
 from trackvib_sim.nodes.topic_choice import message_type
+from trackvib_sim.numerics.units import NANO
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.closed_loop import run_closed_loop
-from trackvib_sim.simulation.settings import NANO, Rates, RunSettings
+from trackvib_sim.simulation.settings import Rates, RunSettings
 from trackvib_sim.simulation.simulation import Simulation
-from trackvib_sim.vehicle.mount_audit import MountEnergy
+from trackvib_sim.vehicle.mount_energy import MountEnergy
 from trackvib_sim.vehicle.system import Operation
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
@@ -106,7 +107,7 @@ def test_loop_in_one_process_is_identical(drive):
     record = run_closed_loop(simulation, Iso8608Road("E", 1, 8.0, 8.0), Skyhook(1e-3), SAMPLES)
     np.testing.assert_array_equal(record.specific_force[:, 0], drive.chassis.specific_force)
     np.testing.assert_array_equal(record.specific_force[:, 1], drive.powertrain.specific_force)
-    np.testing.assert_array_equal(record.rate[:, 0], drive.chassis.rate)
+    np.testing.assert_array_equal(record.angular_velocity[:, 0], drive.chassis.angular_velocity)
     np.testing.assert_array_equal(record.current, drive.answers.current)
 
 

@@ -4,7 +4,7 @@ import signal
 from pathlib import Path
 
 import pytest
-from mr_mount_controller.shared_memory import remove_unfinished_segments
+from mr_mount_controller.node_base.shared_memory import remove_unfinished_segments
 
 pytestmark = pytest.mark.system
 

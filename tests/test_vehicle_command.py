@@ -2,7 +2,7 @@
 
 import pytest
 import yaml
-from trackvib_sim.installed import default_vehicle_file
+from trackvib_sim.data import default_vehicle_file
 
 pytestmark = pytest.mark.system
 

@@ -12,12 +12,11 @@ setup(
     maintainer="trackvib developers",
     maintainer_email="developers@trackvib.invalid",
     packages=find_packages(exclude=["test"]),
-    package_data={f"{name}.analysis.report": ["templates/*"]},
+    package_data={f"{name}.analysis.report": ["templates/*"], f"{name}.data": ["*.yaml", "*.csv"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{name}"]),
         (f"share/{name}", ["package.xml"]),
         (f"share/{name}/config", glob("config/*.yaml")),
-        (f"share/{name}/config/reference", glob("config/reference/*.csv")),
         (f"share/{name}/launch", glob("launch/*.launch.py")),
     ],
     install_requires=[

@@ -4,7 +4,7 @@ from math import exp, sqrt
 
 from mr_mount_controller.laws.base import ControlLaw
 from mr_mount_controller.laws.estimator import MotionEstimator
-from mr_mount_controller.parameters import Parameter
+from mr_mount_controller.node_base.parameters import Parameter
 
 
 class BusyFirm(ControlLaw):

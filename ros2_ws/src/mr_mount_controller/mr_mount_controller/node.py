@@ -10,9 +10,10 @@ from trackvib_msgs.msg import CoilCurrent
 
 from .laws import find_law
 from .laws.base import LawError, Sample, answer
-from .node_support import LOOP_QOS, LOOP_WRITER_QOS, LoopNode, NodeError, run_node
-from .packed_message import NANO, MessageReader
-from .parameters import Parameter, ParameterError
+from .node_base.loop_node import LoopNode, NodeError, run_node
+from .node_base.packed_message import NANO, MessageReader
+from .node_base.parameters import Parameter, ParameterError
+from .node_base.qos import LOOP_QOS, LOOP_WRITER_QOS
 
 PARAMETERS = (
     Parameter("law", "passive", "Control law: a known name, or package.module:Class."),
@@ -28,7 +29,7 @@ class Reading(NamedTuple):
 
     stamp: int  # ns
     force: tuple  # specific force, m/s^2
-    rate: tuple  # angular velocity, rad/s
+    angular_velocity: tuple  # rad/s
 
 
 class ControllerNode(LoopNode):
@@ -83,7 +84,9 @@ class ControllerNode(LoopNode):
             return
         self._chassis = self._powertrain = None
         stamp = chassis.stamp
-        sample = Sample(stamp / NANO, chassis.force, chassis.rate, powertrain.force, powertrain.rate)
+        sample = Sample(
+            stamp / NANO, chassis.force, chassis.angular_velocity, powertrain.force, powertrain.angular_velocity
+        )
         if sample == self._sample:
             # Sent twice, or the first of a new run after the first of the old one. The law has had it, and nothing
             # after it, so the answer is the same.

@@ -27,7 +27,8 @@ def test_every_parameter_has_its_row(name):
     for parameter, row in zip(law.parameters, rows[1:], strict=True):
         assert row == (
             f"| `{parameter.name}` | `{parameter.default}` "
-            f"| {parameter.low:g} to {parameter.high:g} {parameter.unit}".rstrip() + f" | {parameter.description} |"
+            f"| {parameter.low:g} to {parameter.high:g} {parameter.unit}".rstrip()
+            + f" | {parameter.description} |"
         )
 
 

@@ -12,7 +12,7 @@ from mr_mount_controller.laws.base import ControlLaw, LawError, Sample, answer
 from mr_mount_controller.laws.passive import Passive
 from mr_mount_controller.laws.skyhook import Skyhook
 from mr_mount_controller.mount import HIGHEST_CURRENT, LOWEST_CURRENT
-from mr_mount_controller.parameters import ParameterError
+from mr_mount_controller.node_base.parameters import ParameterError
 
 PERIOD = 1e-3
 FINITE = st.floats(allow_nan=False, allow_infinity=False)

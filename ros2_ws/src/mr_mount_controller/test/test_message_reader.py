@@ -7,7 +7,7 @@ import pytest
 from builtin_interfaces.msg import Time
 from hypothesis import given
 from hypothesis import strategies as st
-from mr_mount_controller.packed_message import MessageReader
+from mr_mount_controller.node_base.packed_message import MessageReader
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import Imu
 from std_msgs.msg import Header

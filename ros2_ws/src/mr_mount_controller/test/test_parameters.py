@@ -1,7 +1,7 @@
 """Parameters: what each type accepts, and what a refusal says."""
 
 import pytest
-from mr_mount_controller.parameters import Parameter, ParameterError
+from mr_mount_controller.node_base.parameters import Parameter, ParameterError
 
 GAIN = Parameter("gain", 1.0, "A gain.", "N s/m", 0.0, 5.0)
 FREE = Parameter("offset", 0.0, "Any number.")

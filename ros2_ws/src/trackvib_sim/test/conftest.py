@@ -7,17 +7,17 @@ import numpy as np
 import pytest
 from hypothesis import settings
 from scipy.spatial.transform import Rotation
-from trackvib_sim.installed import default_vehicle_file
+from trackvib_sim.data import default_vehicle_file
 from trackvib_sim.road.feeder import RoadFeeder
-from trackvib_sim.rui.cells import columns
-from trackvib_sim.rui.cuts import CUT, FORCE, MOMENT, TORQUE, new_cuts, open_cuts
-from trackvib_sim.rui.kinematics import new_motion, update_motion
-from trackvib_sim.rui.riccati import new_response, solve_accelerations
 from trackvib_sim.rui.state import Loads, TreeState
-from trackvib_sim.rui.tree import new_rows, to_lanes
+from trackvib_sim.rui.sweeps.articulated import CutOffset, new_cuts, open_cuts
+from trackvib_sim.rui.sweeps.cells import columns
+from trackvib_sim.rui.sweeps.kinematics import new_motion, update_motion
+from trackvib_sim.rui.sweeps.riccati import new_response, solve_accelerations
+from trackvib_sim.rui.sweeps.tree import new_rows, to_lanes
 from trackvib_sim.simulation.settings import Rates, RunSettings
 from trackvib_sim.simulation.simulation import HORIZON, Simulation
-from trackvib_sim.vehicle.body_tree import body_table
+from trackvib_sim.vehicle.body_tree import build_body_table
 from trackvib_sim.vehicle.system import Operation, build_system
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
@@ -35,7 +35,7 @@ def vehicle():
 @pytest.fixture(scope="session")
 def table(vehicle):
     """Its bodies."""
-    return body_table(vehicle)
+    return build_body_table(vehicle)
 
 
 @pytest.fixture(scope="session")
@@ -78,7 +78,7 @@ def random_state(table):
             position=random.normal(size=(1, 3)),
             attitude=attitude / np.linalg.norm(attitude),
             velocity=speed * random.normal(size=(1, 3)),
-            rate=speed * random.normal(size=(1, 3)),
+            angular_velocity=speed * random.normal(size=(1, 3)),
             hinge=hinge * random.normal(size=n),
             hinge_rate=speed * random.normal(size=n),
         )
@@ -124,10 +124,14 @@ def added():
     """A function that returns what a kernel has added to empty cuts, by row, and that it is loads and nothing else."""
 
     def look(cuts):
-        everything = columns(cuts, 0, CUT)
-        known = everything[:, FORCE : TORQUE + 1]
+        everything = columns(cuts, 0, CutOffset.SIZE)
+        known = everything[:, CutOffset.FORCE : CutOffset.TORQUE + 1]
         assert np.count_nonzero(everything) == np.count_nonzero(known)
-        return Added(columns(cuts, FORCE, 3), columns(cuts, MOMENT, 3), columns(cuts, TORQUE, 1)[:, 0])
+        return Added(
+            columns(cuts, CutOffset.FORCE, 3),
+            columns(cuts, CutOffset.MOMENT, 3),
+            columns(cuts, CutOffset.TORQUE, 1)[:, 0],
+        )
 
     return look
 
@@ -211,7 +215,9 @@ def drifted():
     """A state after dt at constant speeds: `drifted(state, dt)`."""
 
     def drift(state, dt):
-        turned = Rotation.from_rotvec(dt * state.rate) * Rotation.from_quat(state.attitude, scalar_first=True)
+        turned = Rotation.from_rotvec(dt * state.angular_velocity) * Rotation.from_quat(
+            state.attitude, scalar_first=True
+        )
         return state._replace(
             position=state.position + dt * state.velocity,
             attitude=turned.as_quat(scalar_first=True),

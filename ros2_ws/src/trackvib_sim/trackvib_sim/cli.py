@@ -40,59 +40,89 @@ def _interrupt():
 
 
 @main.command()
-@click.option("--road-class", type=click.Choice(list(CLASSES)), default="E", show_default=True,
-              help="Class of the road by ISO 8608.")
+@click.option(
+    "--road-class",
+    type=click.Choice(list(CLASSES)),
+    default="E",
+    show_default=True,
+    help="Class of the road by ISO 8608.",
+)
 @click.option("--speed", type=FiniteRange(0.0, 25.0), default=10.0, show_default=True, help="Speed in m/s.")
-@click.option("--duration", type=FiniteRange(0.1, 3600.0), default=10.0, show_default=True,
-              help="Simulated time in s.")
-@click.option("--law", default="passive", show_default=True, callback=known_law,
-              help=f"Control law: {', '.join(known_laws())}, or package.module:Class.")
+@click.option("--duration", type=FiniteRange(0.1, 3600.0), default=10.0, show_default=True, help="Simulated time in s.")
+@click.option(
+    "--law",
+    default="passive",
+    show_default=True,
+    callback=known_law,
+    help=f"Control law: {', '.join(known_laws())}, or package.module:Class.",
+)
 @click.option("--seed", type=click.IntRange(0, 10**9), default=1, show_default=True, help="Seed of the road.")
-@click.option("--one-process", is_flag=True,
-              help="Simulator, road and controller in one process: the same results, sooner.")
-@click.option("--out", type=click.Path(file_okay=False), default=None,
-              help="Folder to make for the run.  [default: runs/<time>_<road>_<speed>]")
+@click.option(
+    "--one-process", is_flag=True, help="Simulator, road and controller in one process: the same results, sooner."
+)
+@click.option(
+    "--out",
+    type=click.Path(file_okay=False),
+    default=None,
+    help="Folder to make for the run.  [default: runs/<time>_<road>_<speed>]",
+)
 def run(road_class, speed, duration, law, seed, one_process, out):
     """Run the closed loop as four ROS 2 nodes; leaves a bag, a summary and a picture."""
-    from .commands.closed_loop_run import Choices, perform  # imported late: --help need not wait for it
+    from .commands.closed_loop_run import Choices, run_loop  # imported late: --help need not wait for it
     from .commands.result_folder import CommandError
 
     try:
-        perform(Choices(road_class, speed, duration, law, seed, one_process), out)
+        run_loop(Choices(road_class, speed, duration, law, seed, one_process), out)
     except CommandError as error:
         click.echo(f"error: {error}", err=True)
         sys.exit(1)
 
 
 @main.command()
-@click.option("--current", type=FiniteRange(0.0, 10.0), default=1.0, show_default=True,
-              help="Coil current of both mounts in A.")
-@click.option("--highest", type=FiniteRange(0.1, 1000.0), default=100.0, show_default=True,
-              help="Highest frequency of the table in Hz.")
-@click.option("--out", type=click.Path(dir_okay=False), default="modes.png", show_default=True,
-              help="Picture of the lowest oscillations.")
+@click.option(
+    "--current", type=FiniteRange(0.0, 10.0), default=1.0, show_default=True, help="Coil current of both mounts in A."
+)
+@click.option(
+    "--highest",
+    type=FiniteRange(0.1, 1000.0),
+    default=100.0,
+    show_default=True,
+    help="Highest frequency of the table in Hz.",
+)
+@click.option(
+    "--out",
+    type=click.Path(dir_okay=False),
+    default="modes.png",
+    show_default=True,
+    help="Picture of the lowest oscillations.",
+)
 def modes(current, highest, out):
     """Print the standing vehicle's natural frequencies and damping, and draw its modes."""
-    from .commands.vehicle_modes import perform  # imported late, as above
+    from .commands.vehicle_modes import run_modes  # imported late, as above
 
     try:
-        perform(current, highest, out)
+        run_modes(current, highest, out)
     except (ValueError, OSError) as error:
         click.echo(f"error: {error}", err=True)
         sys.exit(1)
 
 
 @main.command()
-@click.option("--vehicle", type=click.Path(dir_okay=False), default=None,
-              help="Vehicle file.  [default: the one that comes with the package]")
-@click.option("--out", type=click.Path(dir_okay=False), default="vehicle.png", show_default=True,
-              help="Drawing of the vehicle.")
+@click.option(
+    "--vehicle",
+    type=click.Path(dir_okay=False),
+    default=None,
+    help="Vehicle file.  [default: the one that comes with the package]",
+)
+@click.option(
+    "--out", type=click.Path(dir_okay=False), default="vehicle.png", show_default=True, help="Drawing of the vehicle."
+)
 def vehicle(vehicle, out):
     """Print the vehicle's parameters with their sources, and draw it to scale."""
-    from .commands.vehicle_drawing import perform  # imported late, as above
+    from .commands.vehicle_drawing import run_vehicle  # imported late, as above
 
     try:
-        perform(vehicle, out)
+        run_vehicle(vehicle, out)
     except (ValueError, OSError) as error:
         click.echo(f"error: {error}", err=True)
         sys.exit(1)

@@ -2,11 +2,12 @@
 
 from mr_mount_controller.laws.passive import Passive
 
-from .installed import default_vehicle_file
+from .data import default_vehicle_file
+from .numerics.units import NANO
 from .road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road
 from .simulation.closed_loop import run_closed_loop
 from .simulation.open_loop import run_open_loop
-from .simulation.settings import NANO, Rates, RunSettings
+from .simulation.settings import Rates, RunSettings
 from .simulation.simulation import Simulation
 from .vehicle.system import Operation
 from .vehicle.vehicle_file import read_vehicle

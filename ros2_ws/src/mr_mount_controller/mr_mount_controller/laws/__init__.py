@@ -3,7 +3,7 @@
 from importlib import import_module
 from importlib.metadata import entry_points
 
-from ..parameters import ParameterError
+from ..node_base.parameters import ParameterError
 from .base import ControlLaw
 
 GROUP = "mr_mount_controller.laws"

@@ -14,9 +14,9 @@ class Sample(NamedTuple):
 
     time: float  # s, end of the period; simulated time where a simulator runs, counted from the start of the run
     chassis_force: tuple  # (3,) specific force at the mounts' lower ends, m/s^2
-    chassis_rate: tuple  # (3,) angular velocity, rad/s
+    chassis_angular_velocity: tuple  # (3,) angular velocity, rad/s
     powertrain_force: tuple  # (3,) the same at the mounts' upper ends
-    powertrain_rate: tuple
+    powertrain_angular_velocity: tuple
 
 
 class LawError(RuntimeError):
@@ -32,7 +32,7 @@ class ControlLaw:
 
     Attributes
     ----------
-    parameters : tuple of mr_mount_controller.parameters.Parameter
+    parameters : tuple of mr_mount_controller.node_base.parameters.Parameter
         Class attribute: name, default, description, unit and range of each, in the order in which documents list them.
         The node declares them as its own ROS parameters, from which come their checks and what `ros2 param describe`
         says; `docs/controllers.md` is made from the same. A name must be a Python identifier, other than `law`,
@@ -78,7 +78,7 @@ class ControlLaw:
     Firm while the powertrain is pushed up:
 
     >>> from mr_mount_controller.laws.base import ControlLaw, Sample
-    >>> from mr_mount_controller.parameters import Parameter
+    >>> from mr_mount_controller.node_base.parameters import Parameter
     >>> class Upwards(ControlLaw):
     ...     parameters = (Parameter("firm", 2.5, "Current on the way up.", "A", 0.7, 4.0),)
     ...

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.linalg import expm, solve, solve_continuous_are
 
 from ..mount import COIL_LAG, damping, stiffness
-from ..parameters import Parameter
+from ..node_base.parameters import Parameter
 from .semi_active import SEMI_ACTIVE, DampingLaw
 from .two_mount_model import DEFLECTION, two_mount_model
 

@@ -6,7 +6,7 @@ review of Y. Yu, N. G. Naganathan, R. V. Dukkipati, "A literature review of auto
 Mech. Mach. Theory 36 (2001) 123-142. Where the engine's lowest order lies is estimated from the accelerations.
 """
 
-from ..parameters import Parameter
+from ..node_base.parameters import Parameter
 from .base import ControlLaw
 from .engine_speed import EngineSpeedEstimator
 from .semi_active import FIRM, SOFT, check_currents

@@ -68,7 +68,7 @@ class EngineSpeedEstimator:
     def update(self, sample):
         """Return the speed [r/min] after another `Sample`, or None while it is not known."""
         self._resonators *= self._turn
-        self._resonators += self._moment.update(sample.powertrain_force, sample.powertrain_rate)
+        self._resonators += self._moment.update(sample.powertrain_force, sample.powertrain_angular_velocity)
         self._samples += 1
         if self._samples % self._hop == 0:
             self._weigh((self._clearness() ** _TRUST).prod(axis=0))

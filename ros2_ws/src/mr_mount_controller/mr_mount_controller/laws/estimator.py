@@ -55,8 +55,8 @@ class MotionEstimator:
     def update(self, sample):
         """Return the `Motion` at the end of a `Sample`'s period."""
         return Motion(
-            *self._powertrain.update(sample.powertrain_force, sample.powertrain_rate),
-            *self._chassis.update(sample.chassis_force, sample.chassis_rate),
+            *self._powertrain.update(sample.powertrain_force, sample.powertrain_angular_velocity),
+            *self._chassis.update(sample.chassis_force, sample.chassis_angular_velocity),
         )
 
 

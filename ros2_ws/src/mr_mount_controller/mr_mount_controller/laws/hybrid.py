@@ -12,7 +12,7 @@ truck's suspension", Veh. Syst. Dyn. 27 (1997) 289-303.
 on Advanced Automotive Technologies (1997).
 """
 
-from ..parameters import Parameter
+from ..node_base.parameters import Parameter
 from .semi_active import SEMI_ACTIVE, DampingLaw, share_of_velocity
 
 HOOK = Parameter("hook_damping", 4.0e4, "Damping of the imagined damper, a mount.", "N s/m", 0.0, 1.0e6)

@@ -1,6 +1,6 @@
 """Passive mounts: one constant current."""
 
-from ..parameters import Parameter
+from ..node_base.parameters import Parameter
 from .base import ControlLaw
 
 

@@ -7,7 +7,7 @@ mount is a stiffer one as well, which no law can separate.
 """
 
 from ..mount import HIGHEST_CURRENT, LOWEST_CURRENT, current_for_damping, damping
-from ..parameters import Parameter, ParameterError
+from ..node_base.parameters import Parameter, ParameterError
 from .base import ControlLaw
 from .estimator import MotionEstimator
 

@@ -1,8 +1,8 @@
 """What the tests of bags share: a small bag with real messages."""
 
 import pytest
-from mr_mount_controller.node_support import LOOP_WRITER_QOS
-from mr_mount_controller.packed_message import NANO
+from mr_mount_controller.node_base.packed_message import NANO
+from mr_mount_controller.node_base.qos import LOOP_WRITER_QOS
 from trackvib_sim.bags.qos import qos_record
 from trackvib_sim.bags.writing import BagWriter
 from trackvib_sim.nodes.messages import ImuMessage

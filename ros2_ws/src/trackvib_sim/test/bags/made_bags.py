@@ -8,7 +8,7 @@ from std_msgs.msg import String
 from trackvib_msgs.msg import CoilCurrent
 from trackvib_sim.bags.writing import BagWriter
 from trackvib_sim.nodes.messages import ImuMessage, MountMessage, set_stamp, set_vector
-from trackvib_sim.simulation.settings import NANO
+from trackvib_sim.numerics.units import NANO
 from trackvib_sim.vehicle.mr_mounts import new_mount_sample
 
 PERIOD = NANO // 1000

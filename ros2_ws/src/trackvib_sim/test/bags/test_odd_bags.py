@@ -12,9 +12,10 @@ from mcap.records import Metadata
 from mcap.writer import CompressionType, Writer
 from rclpy.serialization import serialize_message
 from trackvib_sim.bags.contents import contents
+from trackvib_sim.bags.errors import BagError
 from trackvib_sim.bags.raw_messages import RawMessage, raw_records
 from trackvib_sim.bags.reading import read_recording
-from trackvib_sim.bags.writing import BagError, BagWriter
+from trackvib_sim.bags.writing import BagWriter
 
 from .made_bags import TYPES, write_bag
 

@@ -8,9 +8,10 @@ import pytest
 from rclpy.serialization import serialize_message
 from rosbags.highlevel import AnyReader
 from std_msgs.msg import String
+from trackvib_sim.bags.errors import BagError
 from trackvib_sim.bags.reading import read_recording
-from trackvib_sim.bags.writing import BagError, BagWriter
-from trackvib_sim.simulation.settings import NANO
+from trackvib_sim.bags.writing import BagWriter
+from trackvib_sim.numerics.units import NANO
 
 from .made_bags import PERIODS, TYPES, write_bag
 
@@ -40,7 +41,7 @@ def same(recording, messages):
     for end, sensor in (("chassis/imu", recording.chassis), ("powertrain/imu", recording.powertrain)):
         np.testing.assert_array_equal(sensor.stamp, [nanoseconds(m.header.stamp) for m in messages[end]])
         np.testing.assert_array_equal(sensor.specific_force, vectors(messages[end], "linear_acceleration"))
-        np.testing.assert_array_equal(sensor.rate, vectors(messages[end], "angular_velocity"))
+        np.testing.assert_array_equal(sensor.angular_velocity, vectors(messages[end], "angular_velocity"))
     mounts, states = recording.mounts, messages["mount_state"]
     np.testing.assert_array_equal(mounts.stamp, [nanoseconds(m.header.stamp) for m in states])
     for name in ("current", "stiffness", "damping", "dissipated_power"):

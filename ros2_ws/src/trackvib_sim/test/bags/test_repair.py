@@ -17,8 +17,9 @@ from mcap.reader import make_reader
 from mcap.writer import MCAP0_MAGIC
 from rosbags.rosbag2 import Reader
 from trackvib_sim.bags.contents import contents
+from trackvib_sim.bags.errors import BagError
 from trackvib_sim.bags.repair import repair
-from trackvib_sim.bags.writing import BagError, BagWriter
+from trackvib_sim.bags.writing import BagWriter
 
 MESSAGES = 100
 NAME = "bag_0.mcap"

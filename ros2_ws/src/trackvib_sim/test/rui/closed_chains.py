@@ -5,7 +5,7 @@ import pinocchio as pin
 from scipy.linalg import null_space
 from scipy.spatial.transform import Rotation
 from trackvib_sim.rui.cut_pin import CutPin
-from trackvib_sim.rui.placement import parent_rows
+from trackvib_sim.rui.reference.placement import parent_rows
 from trackvib_sim.rui.state import Loads, no_loads, rest_state
 from trackvib_sim.rui.table import Body, Hinge
 
@@ -26,7 +26,7 @@ class DenseChain:
         w, *xyz = state.attitude[0]
         self.to_global = Rotation.from_quat(state.attitude[0], scalar_first=True).as_matrix()
         self.q[:7] = *state.position[0], *xyz, w
-        self.v[:6] = *(self.to_global.T @ state.velocity[0]), *(self.to_global.T @ state.rate[0])
+        self.v[:6] = *(self.to_global.T @ state.velocity[0]), *(self.to_global.T @ state.angular_velocity[0])
         for row in range(1, n):
             joint = self.model.joints[self.joints[row]]
             self.q[joint.idx_q], self.v[joint.idx_v] = state.hinge[row], state.hinge_rate[row]
@@ -36,7 +36,7 @@ class DenseChain:
         body, parent, place, joint = self.bodies[row], 0, np.zeros(3), pin.JointModelFreeFlyer()
         if row:
             parent, place = self.joints[parents[row]], np.asarray(body.hinge.place, dtype=float)
-            kind = {"revolute": pin.JointModelRevoluteUnaligned, "slide": pin.JointModelPrismaticUnaligned}
+            kind = {"revolute": pin.JointModelRevoluteUnaligned, "prismatic": pin.JointModelPrismaticUnaligned}
             joint = kind[body.hinge.kind](np.asarray(body.hinge.axis) / np.linalg.norm(body.hinge.axis))
         self.joints[row] = self.model.addJoint(parent, joint, pin.SE3(np.eye(3), place), body.name)
         inertia = pin.Inertia(body.mass, np.asarray(body.centre, dtype=float), np.asarray(body.inertia))
@@ -79,7 +79,7 @@ class DenseChain:
         return self._with_speeds(state, free @ (free.T @ speeds))
 
     def _with_speeds(self, state, v):
-        return state._replace(velocity=(self.to_global @ v[:3])[None], rate=(self.to_global @ v[3:6])[None],
+        return state._replace(velocity=(self.to_global @ v[:3])[None], angular_velocity=(self.to_global @ v[3:6])[None],
                               hinge_rate=self._hinges(v))  # fmt: skip
 
     def _hinges(self, v):
@@ -167,7 +167,7 @@ def ladders(seed, loops):
         tip, knee = np.array([0.4, 0.8, 0.0]) + [*random.uniform(-0.1, 0.1, 2), 0.0], np.array([1.3, 0.6, 0.0])
         for name, parent, kind, place, axis in (
             (f"left {k}", "root", "revolute", foot, turn[:, 2]),
-            (f"rod {k}", f"left {k}", "slide", turn @ (0.1, 0.1, 0.0), turn @ (0.4, 0.8, 0.0)),
+            (f"rod {k}", f"left {k}", "prismatic", turn @ (0.1, 0.1, 0.0), turn @ (0.4, 0.8, 0.0)),
             (f"right {k}", "root", "revolute", foot + turn[:, 0], turn[:, 2]),
             (f"shin {k}", f"right {k}", "revolute", turn @ (knee - (1.0, 0.0, 0.0)), turn[:, 2]),
         ):

@@ -4,13 +4,13 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from scipy.spatial.transform import Rotation
-from trackvib_sim.rui.exchange import form_x
-from trackvib_sim.rui.overall import form_a
-from trackvib_sim.rui.placement import parent_rows, place_bodies
+from trackvib_sim.rui.reference.form_a import form_a
+from trackvib_sim.rui.reference.form_x import form_x
+from trackvib_sim.rui.reference.placement import parent_rows, place_bodies
 from trackvib_sim.rui.solve import accelerations
 from trackvib_sim.rui.state import Accelerations, Loads, TreeState, free_bodies, rest_state
 from trackvib_sim.rui.table import Body, Hinge, check_table
-from trackvib_sim.studies.pinocchio_tree import pinocchio_model
+from trackvib_sim.studies.paper.pinocchio_tree import pinocchio_model
 
 GRAVITY = (0.0, 0.0, -9.81)
 
@@ -20,8 +20,8 @@ def random_table():
     """A function `random_table(seed, bodies, kinds)` that returns a table of `bodies` bodies, a state and loads.
 
     Random topology (from bushes to chains), attitudes, places, axes, boxes of 1 to 100 kg as bodies, speeds, torques
-    and external wrenches. `kinds` are hinge kinds to choose from, "prescribed" meaning a revolute or slide whose
-    motion is given; without it only revolutes and slides come.
+    and external wrenches. `kinds` are hinge kinds to choose from, "prescribed" meaning a revolute or prismatic whose
+    motion is given; without it only revolute and prismatic hinges come.
     """
     return _random_table
 
@@ -41,11 +41,11 @@ SHAPES = {
 def shaped_table():
     """A function `shaped_table(shape, seed, kinds)` that returns a random table of one of `SHAPES`, a state and loads.
 
-    `kinds` are hinge kinds to choose from; "prescribed" is a revolute or slide whose motion is given, and "elastic"
+    `kinds` are hinge kinds to choose from; "prescribed" is a revolute or prismatic whose motion is given, and "elastic"
     makes the hinges so that the shape says so. Bodies are boxes of 1 to 100 kg; everything turns and moves.
     """
 
-    def make(shape, seed, kinds=("revolute", "slide")):
+    def make(shape, seed, kinds=("revolute", "prismatic")):
         random, (parents, elastic) = np.random.default_rng(seed), SHAPES[shape]
         bodies = []
         for row, parent in enumerate((None, *parents)):
@@ -67,7 +67,7 @@ def shaped_table():
             position=turn.apply(state.position + 0.05 * random.normal(size=(free, 3))) + random.normal(size=3),
             attitude=attitude.as_quat(scalar_first=True),
             velocity=random.normal(size=(free, 3)),
-            rate=random.normal(size=(free, 3)),
+            angular_velocity=random.normal(size=(free, 3)),
             hinge=0.3 * random.normal(size=n),
             hinge_rate=random.normal(size=n),
         )
@@ -87,7 +87,7 @@ def shaped_table():
 def pinocchio():
     """A function `pinocchio(bodies, state, loads, gravity)` that returns `Accelerations`: ABA and RNEA of Pinocchio.
 
-    Tables of free revolutes and slides only.
+    Tables of free revolute and prismatic hinges only.
     """
     return _pinocchio
 
@@ -108,7 +108,7 @@ def relative():
     return error
 
 
-def _random_table(seed, bodies, kinds=("revolute", "slide")):
+def _random_table(seed, bodies, kinds=("revolute", "prismatic")):
     random = np.random.default_rng(seed)
     chain = random.uniform()  # how often a body hangs on the one before it
     table = []
@@ -131,7 +131,7 @@ def _random_table(seed, bodies, kinds=("revolute", "slide")):
 def _random_hinge(random, number, kind, parent):
     place, axis = 0.4 * random.normal(size=3), random.normal(size=3)
     if kind == "prescribed":
-        return Hinge(number, str(random.choice(["revolute", "slide"])), parent, place, axis, prescribed=True)
+        return Hinge(number, str(random.choice(["revolute", "prismatic"])), parent, place, axis, prescribed=True)
     if kind == "elastic":
         return Hinge(number, kind, parent, place, stiffness=random.uniform(100.0, 1e4, 6),
                      damping=random.uniform(10.0, 100.0, 6))  # fmt: skip
@@ -147,19 +147,19 @@ def _random_state(random, table):
     n, state, free = len(table), rest_state(table), free_bodies(table)
     hinge, rate = random.normal(size=n), random.normal(size=n)
     for row, body in enumerate(table):
-        if body.hinge is not None and body.hinge.kind == "slide":
+        if body.hinge is not None and body.hinge.kind == "prismatic":
             hinge[row] *= 0.3
     state = TreeState(*state[:4], hinge, rate)
-    state.position[0], state.velocity[0], state.rate[0] = random.normal(size=(3, 3))
+    state.position[0], state.velocity[0], state.angular_velocity[0] = random.normal(size=(3, 3))
     state.attitude[0] = _any_turn(random).as_quat(scalar_first=True)
     for k, row in enumerate(free[1:], 1):
         p, at = parent_rows(table)[row], place_bodies(table, state)
         near = Rotation.from_rotvec(0.1 * random.normal(size=3))
         state.position[k] = at.hinge_point[row] + 0.02 * random.normal(size=3)
         state.attitude[k] = (Rotation.from_matrix(at.rotation[p]) * near).as_quat(scalar_first=True)
-        state.velocity[k] = at.velocity[p] + np.cross(at.rate[p], state.position[k] - at.origin[p])
+        state.velocity[k] = at.velocity[p] + np.cross(at.angular_velocity[p], state.position[k] - at.origin[p])
         state.velocity[k] += 0.1 * random.normal(size=3)
-        state.rate[k] = at.rate[p] + 0.1 * random.normal(size=3)
+        state.angular_velocity[k] = at.angular_velocity[p] + 0.1 * random.normal(size=3)
     return state
 
 
@@ -170,7 +170,7 @@ def _pinocchio(bodies, state, loads, gravity=GRAVITY):
     attitude = state.attitude[0] / np.linalg.norm(state.attitude[0])
     to_global = pin.Quaternion(*attitude).matrix()
     q[:7] = *state.position[0], *attitude[1:], attitude[0]
-    v[:6] = *(to_global.T @ state.velocity[0]), *(to_global.T @ state.rate[0])
+    v[:6] = *(to_global.T @ state.velocity[0]), *(to_global.T @ state.angular_velocity[0])
     for row in range(1, n):
         joint = model.joints[joints[row]]
         q[joint.idx_q], v[joint.idx_v], tau[joint.idx_v] = state.hinge[row], state.hinge_rate[row], loads.torque[row]

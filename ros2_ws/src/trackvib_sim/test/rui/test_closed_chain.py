@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 from trackvib_sim.rui.closed_chain import closed_accelerations, closure_error
 from trackvib_sim.rui.cut_pin import CutPin
-from trackvib_sim.rui.placement import place_bodies
+from trackvib_sim.rui.reference.placement import place_bodies
 from trackvib_sim.rui.solve import accelerations
 
 from .closed_chains import GRAVITY, ROUNDING, DenseChain, ladders, parallelogram, polygon
@@ -42,7 +42,7 @@ def test_closed_polygons(links, seed):
 @pytest.mark.cross_engine
 @pytest.mark.parametrize("loops", [1, 2, 3, 24])
 def test_several_loops_on_one_body(loops):
-    """Loops with a slide and with axes of their own, closed by as many pins, and those in lanes side by side."""
+    """Loops with a prismatic hinge and with axes of their own, by as many pins, and those side by side."""
     bodies, pins, state, loads = ladders(loops, loops)
     found, force = closed_accelerations(bodies, pins, state, loads, GRAVITY)
     assert force.shape == (loops, 3)
@@ -60,7 +60,7 @@ def test_newton_and_euler_of_a_link(links):
     assert np.abs(np.cross(force[0], at.axis[1]) @ at.axis[1]) < ROUNDING * size
     assert np.abs(force[0] @ at.axis[1]) < ROUNDING * size
     for row, body in enumerate(bodies):
-        A, om, al = at.rotation[row], at.rate[row], found.angular[row]
+        A, om, al = at.rotation[row], at.angular_velocity[row], found.angular[row]
         c, J = A @ body.centre, A @ body.inertia @ A.T
         push, turn = loads.force[row] + body.mass * GRAVITY, loads.moment[row] - np.cross(c, loads.force[row])
         # own hinge at the origin, the next link's, the pin

@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.linalg import null_space
 from trackvib_sim.rui.closed_chain import closed_accelerations, closure_error
-from trackvib_sim.rui.placement import place_bodies
+from trackvib_sim.rui.reference.placement import place_bodies
 from trackvib_sim.rui.state import TreeState, no_loads
 
 from .closed_chains import GRAVITY, ROUNDING, parallelogram, polygon
@@ -19,7 +19,9 @@ def _step(bodies, pins, state, loads, h, gravity):
     def slope(s):
         a, _ = closed_accelerations(bodies, pins, s, loads, gravity)
         w, *v = s.attitude[0]
-        turning = 0.5 * np.array([-s.rate[0] @ v, *(w * s.rate[0] + np.cross(s.rate[0], v))])
+        turning = 0.5 * np.array(
+            [-s.angular_velocity[0] @ v, *(w * s.angular_velocity[0] + np.cross(s.angular_velocity[0], v))]
+        )
         return TreeState(s.velocity, turning[None], a.linear[:1], a.angular[:1], s.hinge_rate, a.hinge)
 
     def after(s, ds, dt):
@@ -37,7 +39,7 @@ def _step(bodies, pins, state, loads, h, gravity):
 def _energy(bodies, state, gravity):
     at, total = place_bodies(bodies, state), 0.0
     for row, body in enumerate(bodies):
-        A, om = at.rotation[row], at.rate[row]
+        A, om = at.rotation[row], at.angular_velocity[row]
         c = A @ body.centre
         v = at.velocity[row] + np.cross(om, c)
         total += 0.5 * body.mass * v @ v + 0.5 * om @ A @ body.inertia @ A.T @ om
@@ -76,7 +78,7 @@ def test_baumgarte_draws_the_ends_together(seed):
     found, _ = closed_accelerations(bodies, [cut], state, loads)
     at, ends = place_bodies(bodies, state), []
     for row, point in ((5, cut.point_a), (0, cut.point_b)):
-        arm, om = at.rotation[row] @ point, at.rate[row]
+        arm, om = at.rotation[row] @ point, at.angular_velocity[row]
         ends.append(found.linear[row] + np.cross(found.angular[row], arm) + np.cross(om, np.cross(om, arm)))
     miss = closure_error(bodies, [cut], state)
     across = null_space((at.rotation[5] @ cut.axis)[None])

@@ -40,7 +40,7 @@ def test_impossible_pins(match, changes):
 
 
 @pytest.mark.analytic
-@pytest.mark.parametrize("kind, axis", [("slide", (0, 1, 0)), ("elastic", (0, 1, 0)), ("revolute", (1, 0, 0))])
+@pytest.mark.parametrize("kind, axis", [("prismatic", (0, 1, 0)), ("elastic", (0, 1, 0)), ("revolute", (1, 0, 0))])
 def test_loops_that_leave_their_planes(kind, axis):
     """Hinges in the loop that would let it leave its planes are refused; outside of the loop they are not."""
     bodies, cut, state, loads = parallelogram(0.3, 0.0)

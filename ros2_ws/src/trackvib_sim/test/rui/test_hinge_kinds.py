@@ -6,20 +6,16 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
-from trackvib_sim.rui.cells import columns
-from trackvib_sim.rui.cuts import (
-    FORCE,
-    TORQUE,
-    new_cuts,
-)
-from trackvib_sim.rui.elastic import apply_elastic_hinges
-from trackvib_sim.rui.integrator import integrate
-from trackvib_sim.rui.overall import form_a
-from trackvib_sim.rui.placement import parent_rows, place_bodies
+from trackvib_sim.rui.reference.form_a import form_a
+from trackvib_sim.rui.reference.placement import parent_rows, place_bodies
 from trackvib_sim.rui.solve import accelerations
 from trackvib_sim.rui.state import no_loads, rest_state
+from trackvib_sim.rui.sweeps.articulated import CutOffset, new_cuts
+from trackvib_sim.rui.sweeps.cells import columns
+from trackvib_sim.rui.sweeps.elastic import apply_elastic_hinges
+from trackvib_sim.rui.sweeps.integrator import integrate
+from trackvib_sim.rui.sweeps.tree import build_tree, rest_lanes, to_lanes
 from trackvib_sim.rui.table import Body, Hinge
-from trackvib_sim.rui.tree import build_tree, rest_lanes, to_lanes
 
 from .cases import EVERY_KIND, NO_GRAVITY, ROUNDING, G, differ, seeds, shapes
 
@@ -37,7 +33,7 @@ def _rates_of_momentum(bodies, state, found):
     """Linear and angular (about the global origin) rates of momentum of each body."""
     at, rates = place_bodies(bodies, state), []
     for row, body in enumerate(bodies):
-        om, al, arm = at.rate[row], found.angular[row], at.rotation[row] @ body.centre
+        om, al, arm = at.angular_velocity[row], found.angular[row], at.rotation[row] @ body.centre
         inertia = at.rotation[row] @ body.inertia @ at.rotation[row].T
         force = body.mass * (found.linear[row] + np.cross(al, arm) + np.cross(om, np.cross(om, arm)))
         moment = np.cross(at.origin[row] + arm, force) + inertia @ al + np.cross(om, inertia @ om)
@@ -71,13 +67,13 @@ def test_elastic_hinges_load_both_bodies_alike(shaped_table, moved):
     still = tree._replace(elastic=tree.elastic._replace(damping=0.0 * tree.elastic.damping))
     apply_elastic_hinges(still, motion, undamped)
     at = place_bodies(bodies, state)
-    wrench, spring = columns(cuts, FORCE, 6)[tree.row], columns(undamped, FORCE, 6)[tree.row]
+    wrench, spring = columns(cuts, CutOffset.FORCE, 6)[tree.row], columns(undamped, CutOffset.FORCE, 6)[tree.row]
     moment = wrench[:, 3:] + np.cross(at.origin, wrench[:, :3])
     assert_allclose(wrench[:, :3].sum(0), 0.0, atol=1e-12 * np.abs(wrench).max())
     assert_allclose(moment.sum(0), 0.0, atol=1e-12 * np.abs(moment).max())
-    assert not columns(cuts, TORQUE, 1).any()
+    assert not columns(cuts, CutOffset.TORQUE, 1).any()
     damper = wrench - spring
-    assert np.sum(damper[:, :3] * at.velocity) + np.sum(damper[:, 3:] * at.rate) < 0.0
+    assert np.sum(damper[:, :3] * at.velocity) + np.sum(damper[:, 3:] * at.angular_velocity) < 0.0
 
 
 @pytest.mark.analytic
@@ -119,7 +115,7 @@ def test_mass_on_a_bushing_has_its_frequency(solved, direction):
 
 
 @pytest.mark.analytic
-@pytest.mark.parametrize("kind", ["revolute", "slide"])
+@pytest.mark.parametrize("kind", ["revolute", "prismatic"])
 def test_prescribed_hinge_drives_its_body(kind):
     """A drive that accelerates one of two coaxial bodies against the other drives that one back by a known torque."""
     bodies = [
@@ -167,7 +163,7 @@ def test_prescribed_motion_needs_the_torque_that_caused_it(shaped_table, shape, 
     assert differ(found, free) < ROUNDING
     axis = place_bodies(bodies, state).axis
     for row in range(1, len(bodies)):
-        part = slice(0, 3) if bodies[row].hinge.kind == "slide" else slice(3, 6)
+        part = slice(0, 3) if bodies[row].hinge.kind == "prismatic" else slice(3, 6)
         torque = -axis[row] @ found.wrench[row, part]
         assert torque == pytest.approx(loads.torque[row], abs=ROUNDING * np.abs(found.wrench).max())
 

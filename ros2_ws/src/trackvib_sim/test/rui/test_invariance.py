@@ -7,12 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
-from trackvib_sim.rui.placement import place_bodies
-from trackvib_sim.rui.reroot import reroot, reroot_state
+from trackvib_sim.rui.reference.placement import place_bodies
+from trackvib_sim.rui.reference.reroot import reroot, reroot_state
 from trackvib_sim.rui.state import Accelerations, free_bodies
 
 GRAVITY = np.array([0.3, -0.2, -9.81])
-EVERY_KIND = ("revolute", "slide", "locked", "elastic", "prescribed")
+EVERY_KIND = ("revolute", "prismatic", "locked", "elastic", "prescribed")
 ROUNDING = 1e-9  # relative to the largest; Forms A and X multiply along paths of up to 25 bodies
 CASES = {"seed": st.integers(0, 2**32 - 1), "size": st.integers(2, 25)}
 FEW = settings(max_examples=40)
@@ -44,7 +44,7 @@ def test_root_does_not_matter(random_table, form, seed, size):
     expected = Accelerations(*(np.zeros_like(part) for part in found))
     of_hinge = {body.hinge.number: row for row, body in enumerate(bodies) if body.hinge is not None}
     for new, old in enumerate(rows):
-        arm, om, al = after.origin[new] - before.origin[old], before.rate[old], found.angular[old]
+        arm, om, al = after.origin[new] - before.origin[old], before.angular_velocity[old], found.angular[old]
         expected.linear[new] = found.linear[old] + np.cross(al, arm) + np.cross(om, np.cross(om, arm))
         expected.angular[new] = al
         if again[new].hinge is None:
@@ -131,7 +131,7 @@ def test_orientation_of_the_global_frame_does_not_matter(random_table, form, see
         position=turn.apply(state.position),
         attitude=(turn * Rotation.from_quat(state.attitude, scalar_first=True)).as_quat(scalar_first=True),
         velocity=turn.apply(state.velocity),
-        rate=turn.apply(state.rate),
+        angular_velocity=turn.apply(state.angular_velocity),
     )
     turned_loads = loads._replace(force=turn.apply(loads.force), moment=turn.apply(loads.moment))
     wrench = np.hstack((turn.apply(found.wrench[:, :3]), turn.apply(found.wrench[:, 3:])))

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from trackvib_sim.rui.overall import overall_transfer
-from trackvib_sim.rui.reroot import reroot, reroot_state
+from trackvib_sim.rui.reference.form_a import overall_transfer
+from trackvib_sim.rui.reference.reroot import reroot, reroot_state
 
 G = (0.0, 0.0, -9.81)
 ENGINES = 1e-9  # of the largest entry

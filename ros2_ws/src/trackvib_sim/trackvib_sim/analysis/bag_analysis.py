@@ -5,24 +5,16 @@ from math import hypot, isfinite, isnan
 import numpy as np
 
 from ..bags.provenance import parameters_with
-from ..simulation.settings import NANO
+from ..numerics.units import NANO
 from ..vehicle.vehicle_file import VehicleFileError, parse_vehicle
-from .bag_numbers import Analysis, History
 from .iso2631 import LEAST_RATE
 from .levels import Levels, bins
 from .mean_spectra import MeanSpectra, known_lines
+from .mount_numbers import bin_means, currents, moments, mount_numbers
+from .numbers import Analysis, History
+from .segments import BLOCK, blocks, common_segments, timing
 from .settling import SHORTEST_SETTLING, settling_time
-from .slow_numbers import bin_means, currents, moments, mount_numbers
-from .stretches import BLOCK, blocks, common, timing
-from .summary import (
-    AXES,
-    SENSORS,
-    SHORTEST_MEASURING,
-    TooShort,
-    loop_health,
-    mount_energy,
-    start_of,
-)
+from .summary import AXES, SENSORS, SHORTEST_MEASURING, TooShort, loop_health, mount_energy, start_of
 from .vibration import band
 
 TOPICS = {
@@ -52,7 +44,7 @@ def _told(recording, parameter):
     return parameters_with(recording.provenance, parameter)[1]
 
 
-def analyse(recording, settle=None, follow=lambda done, total: None):
+def analyse(recording, settle=None, on_progress=lambda done, total: None):
     """Return the `Analysis` of a `bags.recording.Recording`.
 
     Parameters
@@ -60,13 +52,13 @@ def analyse(recording, settle=None, follow=lambda done, total: None):
     recording : Recording
     settle : float, optional
         Time from the start that does not count, `SHORTEST_SETTLING` or more, s; by default `settling_of`.
-    follow : callable
+    on_progress : callable
         Is told now and then how many samples of how many have been looked at.
 
     Raises
     ------
     TooShort
-        No stretch without gaps leaves a second to be measured.
+        No segment without gaps leaves a second to be measured.
     ValueError
         The settling time is too short, the sensors differ in their rates, or their stamps cannot be a time base.
     """
@@ -79,11 +71,11 @@ def analyse(recording, settle=None, follow=lambda done, total: None):
         for part, end in TOPICS.items()
         if getattr(recording, part) is not None
     }
-    stretches, period = _stretches(recording, timings, begin, settle)
+    segments, period = _segments(recording, timings, begin, settle)
     rate = NANO / period
     last = int(min(recording.chassis.stamp[-1], recording.powertrain.stamp[-1]))
     parts = bins(begin, last)
-    sensors, spectra, levels = _measure(recording, stretches, rate, parts, follow)
+    sensors, spectra, levels = _measure(recording, segments, rate, parts, on_progress)
     settled = begin + round(settle * NANO)
     speed = _speed(recording, settled)
     engine_speed, lines, why = _lines(recording, spectra, speed)
@@ -92,7 +84,7 @@ def analyse(recording, settle=None, follow=lambda done, total: None):
         begin=begin,
         duration=(last - begin) / NANO,
         settle=settle,
-        measured=sum(stretch.size - stretch.measured for stretch in stretches) / rate,
+        measured=sum(segment.size - segment.measured for segment in segments) / rate,
         rate=rate,
         band=band(rate),
         speed=float(speed.mean[0]),
@@ -115,8 +107,8 @@ def analyse(recording, settle=None, follow=lambda done, total: None):
     )
 
 
-def _stretches(recording, timings, begin, settle):
-    """Return the `Stretch`es that count and the sensors' period [ns]."""
+def _segments(recording, timings, begin, settle):
+    """Return the `Segment`s that count and the sensors' period [ns]."""
     stamps = [getattr(recording, sensor).stamp for sensor in SENSORS]
     chassis, powertrain = (timings[TOPICS[sensor]] for sensor in SENSORS)
     if abs(chassis[0].period - powertrain[0].period) > 1e-3 * chassis[0].period:
@@ -126,7 +118,7 @@ def _stretches(recording, timings, begin, settle):
         )
     period = chassis[0].period * NANO
     breaks = (chassis[1], powertrain[1])
-    found = common(stamps, breaks, period, begin, settle, SHORTEST_SETTLING, SHORTEST_MEASURING)
+    found = common_segments(stamps, breaks, period, begin, settle, SHORTEST_SETTLING, SHORTEST_MEASURING)
     if not found:
         length = min(stamp[-1] for stamp in stamps) - begin
         needed = f"{settle:g} s of settling and {SHORTEST_MEASURING:g} s to measure without a gap in either sensor"
@@ -136,19 +128,19 @@ def _stretches(recording, timings, begin, settle):
     return found, period
 
 
-def _measure(recording, stretches, rate, parts, follow):
+def _measure(recording, segments, rate, parts, on_progress):
     """Return the numbers of both sensors, the `Spectra`, and the `Levels` by sensor."""
     levels, spectra = {sensor: Levels(rate, parts) for sensor in SENSORS}, MeanSpectra(rate)
-    total, done = len(SENSORS) * sum(stretch.size for stretch in stretches), 0
-    for stretch in stretches:
+    total, done = len(SENSORS) * sum(segment.size for segment in segments), 0
+    for segment in segments:
         counting = []
-        for sensor, first in zip(SENSORS, stretch[:2], strict=True):
+        for sensor, first in zip(SENSORS, segment[:2], strict=True):
             of_sensor = getattr(recording, sensor)
-            stamp, acceleration, _ = (column[first : first + stretch.size] for column in of_sensor)
-            for looked_at in levels[sensor].add(stamp, acceleration, stretch.measured):
-                follow(done + looked_at, total)
-            done += stretch.size
-            counting.append(acceleration[stretch.measured :])
+            stamp, acceleration, _ = (column[first : first + segment.size] for column in of_sensor)
+            for looked_at in levels[sensor].add(stamp, acceleration, segment.measured):
+                on_progress(done + looked_at, total)
+            done += segment.size
+            counting.append(acceleration[segment.measured :])
         spectra.add(*counting)
     sensors = {sensor: dict(zip(AXES, levels[sensor].numbers(), strict=True)) for sensor in SENSORS}
     return sensors, spectra.spectra(), levels

@@ -1,4 +1,4 @@
-"""The numbers of bags as files: JSON, CSV and Parquet. Quantities are called as in `bag_numbers`."""
+"""The numbers of bags as files: JSON, CSV and Parquet. Quantities are called as in `numbers`."""
 
 import json
 from dataclasses import asdict, fields, replace
@@ -8,15 +8,15 @@ import numpy as np
 import pyarrow as pa
 from pyarrow import csv, parquet
 
-from . import bag_numbers
-from .bag_numbers import SIDES
+from . import numbers
+from .numbers import SIDES
 from .summary import AXES, SENSORS
 
 COLUMNS = ("bag", "part", "axis", "quantity", "value", "unit")
 # of the fields of each kind of record
 UNITS = {
     kind.__name__: {field.name: field.metadata["unit"] for field in fields(kind) if "unit" in field.metadata}
-    for kind in vars(bag_numbers).values()
+    for kind in vars(numbers).values()
     if isinstance(kind, type)
 }
 
@@ -39,8 +39,8 @@ def rows(analysis):
     bag = analysis.bag
     yield from _of(bag, "run", "", analysis)
     for sensor, axes in analysis.sensors.items():
-        for axis, numbers in axes.items():
-            yield from _of(bag, sensor, axis, numbers)
+        for axis, of_axis in axes.items():
+            yield from _of(bag, sensor, axis, of_axis)
         yield bag, sensor, "", "total_weighted", analysis.total_weighted[sensor], UNITS["Analysis"]["total_weighted"]
     for line in analysis.lines:
         yield bag, "run", "", f"frequency of {line.name}", line.frequency, UNITS["Line"]["frequency"]
@@ -48,8 +48,8 @@ def rows(analysis):
             for axis, level in axes.items():
                 yield bag, sensor, axis, f"rms of {line.name}", level, UNITS["Line"]["rms"]
     for side, mount in analysis.mounts.items():
-        for axis, numbers in mount.axes.items():
-            yield from _of(bag, f"{side} mount", axis, numbers)
+        for axis, of_axis in mount.axes.items():
+            yield from _of(bag, f"{side} mount", axis, of_axis)
         yield from _of(bag, f"{side} mount", "", mount)
         yield from _of(bag, f"{side} mount", "", mount.current, "current_")
     for side, current in analysis.demand.items():

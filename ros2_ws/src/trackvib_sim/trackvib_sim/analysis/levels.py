@@ -1,17 +1,17 @@
-"""Levels of both sensors over stretches of any length, in blocks: memory is that of a block.
+"""Levels of both sensors over segments of any length, in blocks: memory is that of a block.
 
 A block is filtered with so much before and after it that the filters have forgotten where that begins; the numbers are
-those of the whole stretch filtered in one go.
+those of the whole segment filtered in one go.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from ..simulation.settings import NANO
-from .bag_numbers import AxisNumbers
+from ..numerics.units import NANO
 from .iso2631 import LEAST_RATE, weighted
-from .stretches import blocks
+from .numbers import AxisNumbers
+from .segments import blocks
 from .vibration import band_limited
 
 BLOCK = 120.0  # s
@@ -64,7 +64,7 @@ class Levels:
         self._history, self._weighted_history = np.zeros((2, parts.count, 3))
 
     def add(self, stamp, acceleration, measured):
-        """Add a stretch, and say after each block how much of it is done.
+        """Add a segment, and say after each block how much of it is done.
 
         Parameters
         ----------

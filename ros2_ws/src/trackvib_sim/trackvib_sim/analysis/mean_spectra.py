@@ -1,10 +1,10 @@
-"""Mean spectra of both sensors over stretches of any length, in blocks as in `levels`, and levels about known lines."""
+"""Mean spectra of both sensors over segments of any length, in blocks as in `levels`, and levels about known lines."""
 
 import numpy as np
 from scipy import signal
 
-from .bag_numbers import Line, Spectra
-from .stretches import blocks
+from .numbers import Line, Spectra
+from .segments import blocks
 from .summary import AXES, SENSORS
 from .vibration import psd
 
@@ -24,7 +24,7 @@ class MeanSpectra:
         self._frequency, self._chassis, self._powertrain, self._cross = None, 0.0, 0.0, 0.0
 
     def add(self, chassis, powertrain):
-        """Add a measured stretch: specific forces (k, 3) of both sensors at the same instants."""
+        """Add a measured segment: specific forces (k, 3) of both sensors at the same instants."""
         segment = self._segment
         hop = segment - segment // 2  # scipy's own half overlap
         for block in blocks((len(chassis) - segment // 2) // hop, round(BLOCK / WINDOW)):

@@ -4,9 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..simulation.settings import NANO
-from ..vehicle.mount_audit import MountEnergy
-from .stretches import BLOCK, blocks, period_of
+from ..numerics.units import NANO
+from ..vehicle.mount_energy import MountEnergy
+from .segments import BLOCK, blocks, period_of
 from .vibration import band_limited
 
 AXES = ("x", "y", "z")

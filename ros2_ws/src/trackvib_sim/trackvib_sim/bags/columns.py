@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..simulation.settings import NANO
+from ..numerics.units import NANO
 from .cdr_layout import find_layout
 from .mcap_chunks import at
 

@@ -5,10 +5,10 @@ from typing import NamedTuple
 
 from mcap.writer import MCAP0_MAGIC
 
+from .errors import BagError
 from .files import bag_files
 from .metadata import channels, summary_of
-from .salvage import DAMAGE
-from .writing import BagError
+from .recovery import DAMAGE
 
 
 class Contents(NamedTuple):

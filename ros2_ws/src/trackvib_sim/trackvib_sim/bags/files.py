@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from .writing import BagError
+from .errors import BagError
 
 
 def bag_files(path):

@@ -11,8 +11,8 @@ from mcap.opcode import Opcode
 from mcap.records import Channel, Chunk, Metadata, Schema
 from mcap.stream_reader import MAGIC_SIZE, get_chunk_data_stream, read_magic
 
-from ..rui.compiled import kernel
-from .salvage import DAMAGE, cut_chunk
+from ..numerics.compiled import kernel
+from .recovery import DAMAGE, cut_chunk
 
 _FRAME = Struct("<BQ")  # of every record: what it is, and how many bytes follow
 _MESSAGE = np.dtype([("channel", "<u2"), ("sequence", "<u4"), ("log_time", "<u8"), ("publish_time", "<u8")])

@@ -4,9 +4,9 @@ from rosbags.highlevel import AnyReader, AnyReaderError
 from rosbags.interfaces import QosDurability, QosReliability
 from rosbags.rosbag2 import ReaderError
 
+from .errors import BagError
 from .files import bag_files
-from .salvage import DAMAGE
-from .writing import BagError
+from .recovery import DAMAGE
 
 
 def open_bag(path):

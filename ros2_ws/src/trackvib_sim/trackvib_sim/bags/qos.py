@@ -1,6 +1,6 @@
 """Quality of service of a recorded topic, as rosbag2 of Jazzy (metadata version 9) writes it down."""
 
-from ..simulation.settings import NANO
+from ..numerics.units import NANO
 
 
 def qos_record(profile):

@@ -3,11 +3,11 @@
 from typing import NamedTuple
 
 from mcap.records import Channel, Message, Schema
+from mr_mount_controller.node_base.cdr import leading_stamp
 
+from .errors import BagError
 from .files import bag_files
-from .salvage import DAMAGE, Salvage
-from .stamps import leading_stamp
-from .writing import BagError
+from .recovery import DAMAGE, Recovery
 
 
 class RawMessage(NamedTuple):
@@ -42,7 +42,7 @@ def raw_records(path):
         schemas, channels = {}, {}  # each file has numbers of its own
         try:
             with file.open("rb") as stream:
-                for record in Salvage(stream, file.stat().st_size).records():
+                for record in Recovery(stream, file.stat().st_size).records():
                     if isinstance(record, Schema):
                         schemas[record.id] = record
                     elif isinstance(record, Channel):

@@ -9,19 +9,19 @@ from pathlib import Path
 import numpy as np
 from rosbags.serde import SerdeError
 
-from ..simulation.settings import NANO
+from ..numerics.units import NANO
 from .cdr_layout import type_store
 from .columns import Columns, Topic
+from .errors import BagError
 from .files import bag_files
 from .mcap_chunks import PartedFile, take_apart
-from .recording import Answers, Inertial, Mounts, Odometry, Recording, Told
-from .salvage import DAMAGE
-from .writing import BagError
+from .recording import Answers, Inertial, LoopCounts, Mounts, Odometry, Recording
+from .recovery import DAMAGE
 
 _SENSOR = Columns("sensor_msgs/msg/Imu", Inertial, {
     "stamp": "header.stamp",
     "specific_force": ("linear_acceleration", (3,)),
-    "rate": ("angular_velocity", (3,)),
+    "angular_velocity": ("angular_velocity", (3,)),
 })  # fmt: skip
 _BOTH = {name: (name, (2,)) for name in ("current", "stiffness", "damping")}
 _VECTORS = {name: (name, (2, 3)) for name in ("deflection", "velocity", "force")}
@@ -53,7 +53,7 @@ _READ_ERRORS = (
 )  # fmt: skip
 
 
-def read_recording(path, follow=lambda done, total: None):
+def read_recording(path, on_progress=lambda done, total: None):
     """Return the `Recording` in a bag, a folder with MCAP files or one such file, as far as it goes.
 
     Topics are found by the ends of their names. Of several that end alike the one beside the sensors counts.
@@ -61,7 +61,7 @@ def read_recording(path, follow=lambda done, total: None):
     Parameters
     ----------
     path : path
-    follow : callable
+    on_progress : callable
         Is told now and then how many bytes of how many have been read.
 
     Raises
@@ -74,14 +74,14 @@ def read_recording(path, follow=lambda done, total: None):
     try:
         total, done = sum(file.stat().st_size for file in files), 0
         for file in files:
-            reading.read(file, lambda end, before=done: follow(before + end, total))
+            reading.read(file, lambda end, before=done: on_progress(before + end, total))
             done += file.stat().st_size
         recording = reading.recording(path)
     except BagError:
         raise
     except _READ_ERRORS as error:
         raise BagError(f"bag {str(path)!r} cannot be read: {str(error) or type(error).__name__}") from None
-    follow(total, total)
+    on_progress(total, total)
     return recording
 
 
@@ -93,7 +93,7 @@ class _Reading:
         self._told, self._diagnostics = [], {}
         self._provenance, self._counts, self._complete = {}, Counter(), True
 
-    def read(self, file, follow):
+    def read(self, file, on_progress):
         """Read one file; ids of schemas and channels are its own."""
         schemas, channels, stores = {}, {}, {}
         with file.open("rb") as stream:
@@ -113,7 +113,7 @@ class _Reading:
                         if schema.id not in stores:
                             stores[schema.id] = type_store(schema.name, schema.encoding, schema.data)
                         self._take(channel.topic, end, stores[schema.id], part.data, start, size)
-                follow(part.end)
+                on_progress(part.end)
             self._provenance |= parted.metadata
             self._complete &= parted.complete
 
@@ -172,7 +172,7 @@ class _Reading:
             odometry=columns["odometry"],
             road=self._roads.get(topics.get("road_profile"), []),
             vehicle=self._vehicles.get(topics.get("vehicle_description")),
-            told=Told(*told.T),
+            told=LoopCounts(*told.T),
             diagnostics=self._diagnostics,
             provenance=self._provenance,
             counts=self._counts,

@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..simulation.settings import NANO
-from .writing import BagError
+from ..numerics.units import NANO
+from .errors import BagError
 
 _TOPIC_OF = {"mounts": "mount_state", "road": "road_profile", "vehicle": "vehicle_description"}
 
@@ -17,7 +17,7 @@ class Inertial(NamedTuple):
 
     stamp: np.ndarray  # (k,) ns
     specific_force: np.ndarray  # (k, 3) m/s^2
-    rate: np.ndarray  # (k, 3) rad/s
+    angular_velocity: np.ndarray  # (k, 3) rad/s
 
 
 class Mounts(NamedTuple):
@@ -48,7 +48,7 @@ class Odometry(NamedTuple):
     speed: np.ndarray  # (k,) forward, in the hull's axes, m/s
 
 
-class Told(NamedTuple):
+class LoopCounts(NamedTuple):
     """What the simulator told of its loop, in the order of its time."""
 
     stamp: np.ndarray  # (d,) ns
@@ -68,7 +68,7 @@ class Recording(NamedTuple):
     odometry: Odometry | None
     road: list  # of patches (start, spacing, left, right), m
     vehicle: str | None  # text of the vehicle file
-    told: Told
+    told: LoopCounts
     diagnostics: dict  # last values of the simulator, as text
     provenance: dict  # metadata records of the bag: name -> dict of text
     counts: Counter  # messages a topic

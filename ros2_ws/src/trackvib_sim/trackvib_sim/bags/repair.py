@@ -10,10 +10,11 @@ import yaml
 from mcap import records
 from mcap.writer import MCAP0_MAGIC, CompressionType, Writer
 
+from .errors import BagError
 from .files import bag_files
 from .metadata import summary_of, write_metadata
-from .salvage import DAMAGE, Salvage, compression_of, is_sound
-from .writing import CHUNK, LIBRARY, BagError
+from .recovery import DAMAGE, Recovery, compression_of, is_sound
+from .writing import CHUNK, LIBRARY
 
 _TELL = 1000  # records between two calls of `told`
 
@@ -74,7 +75,7 @@ def _repair_file(file, told):
         stream.seek(0)
         compression = CompressionType.NONE if compression_of(stream, size) == "" else CompressionType.ZSTD
         stream.seek(0)
-        salvage = Salvage(stream, size)
+        salvage = Recovery(stream, size)
         try:
             with part.open("wb") as target:
                 whole = chain(_announced(file), salvage.records())

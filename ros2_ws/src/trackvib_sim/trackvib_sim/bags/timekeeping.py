@@ -1,6 +1,6 @@
 """What the stamps of recorded messages tell: their time in the bag, how far it is complete, that a run begins anew."""
 
-from .stamps import leading_stamp
+from mr_mount_controller.node_base.cdr import leading_stamp
 
 # Their stamps are the simulation's own time, and go up by so many ns at least from message to message of one topic. If
 # they do not, the simulation has begun anew.

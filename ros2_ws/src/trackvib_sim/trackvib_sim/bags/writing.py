@@ -8,16 +8,13 @@ from pathlib import Path
 
 from mcap.writer import CompressionType, Writer
 
+from .errors import BagError
 from .metadata import summary_of, to_yaml, write_metadata
 from .schemas import schema_text
 
 LIBRARY = "trackvib"
 COMPRESSIONS = {"zstd": CompressionType.ZSTD, "none": CompressionType.NONE}
 CHUNK = 1024 * 1024  # bytes
-
-
-class BagError(RuntimeError):
-    """A bag cannot be written or read; the message names it and says why."""
 
 
 class BagWriter:

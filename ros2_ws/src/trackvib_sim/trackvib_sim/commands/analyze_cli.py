@@ -10,23 +10,32 @@ from .option_types import FiniteRange
 
 @click.command()
 @click.argument("bags", nargs=-1, required=True, metavar="BAG...", type=click.Path())
-@click.option("--settle", type=FiniteRange(SHORTEST_SETTLING, 1e6), default=None, metavar="S",
-              help=f"Time from the start of each bag that does not count, in s, {SHORTEST_SETTLING:g} or more: filters "
-                   "settle, too.  [default: until the recorded run has settled, by its parameters]")
-@click.option("--out", type=click.Path(file_okay=False), default=None,
-              help="Folder to make for the results.  [default: analyses/<time>]")
+@click.option(
+    "--settle",
+    type=FiniteRange(SHORTEST_SETTLING, 1e6),
+    default=None,
+    metavar="S",
+    help=f"Time from the start of each bag that does not count, in s, {SHORTEST_SETTLING:g} or more: filters "
+    "settle, too.  [default: until the recorded run has settled, by its parameters]",
+)
+@click.option(
+    "--out",
+    type=click.Path(file_okay=False),
+    default=None,
+    help="Folder to make for the results.  [default: analyses/<time>]",
+)
 def analyze(bags, settle, out):
     """Turn bags into an HTML report and numbers.
 
     RMS, ISO 2631-1, spectra, mounts and currents: report.html for the eye (of several bags a comparison), JSON, CSV and
     Parquet for programs.
     """
-    from ..bags.writing import BagError  # imported late: --help need not wait for it
-    from .bag_evaluation import perform
+    from ..bags.errors import BagError  # imported late: --help need not wait for it
+    from .bag_evaluation import run_analyze
     from .result_folder import CommandError
 
     try:
-        perform(bags, settle, out)
+        run_analyze(bags, settle, out)
     except (BagError, CommandError) as error:
         click.echo(f"error: {error}", err=True)
         sys.exit(1)

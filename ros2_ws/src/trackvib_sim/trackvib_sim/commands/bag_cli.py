@@ -15,7 +15,7 @@ def bag():
 
 @contextmanager
 def _ends_in_one_line():
-    from ..bags.writing import BagError  # imported late: --help need not wait for it
+    from ..bags.errors import BagError  # imported late: --help need not wait for it
 
     try:
         yield
@@ -32,9 +32,9 @@ def _ends_in_one_line():
 def info(bag):
     """Show what is in a bag: topics, messages, times, and what made it."""
     with _ends_in_one_line():
-        from .bag_tools import show  # imported late, as above
+        from .bag_tools import run_info  # imported late, as above
 
-        show(bag)
+        run_info(bag)
 
 
 @bag.command()
@@ -46,6 +46,6 @@ def repair(bag):
     its name ending in .damaged. A sound bag is left alone.
     """
     with _ends_in_one_line():
-        from .bag_tools import mend  # imported late, as above
+        from .bag_tools import run_repair  # imported late, as above
 
-        mend(bag)
+        run_repair(bag)

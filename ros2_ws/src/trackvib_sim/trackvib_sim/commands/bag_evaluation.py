@@ -11,15 +11,15 @@ from rich.table import Table
 from ..analysis.bag_analysis import analyse
 from ..analysis.bag_tables import write_tables
 from ..analysis.levels import WEIGHTINGS
-from ..analysis.report.excerpt import excerpt
 from ..analysis.report.page import write_report
+from ..analysis.report.report_data import build_report_data
 from ..analysis.summary import AXES
 from ..bags.files import bag_files
 from ..bags.reading import read_recording
 from .result_folder import CommandError, all_or_nothing
 
 
-def perform(bags, settle, out):
+def run_analyze(bags, settle, out):
     """Analyse some bags; see `analyze_cli`.
 
     Raises
@@ -32,18 +32,18 @@ def perform(bags, settle, out):
     folder = out or Path("analyses") / f"{datetime.now():%Y%m%dT%H%M%S}"
     with all_or_nothing(folder) as folder:
         _require_different(bags)
-        analyses, excerpts = [], []
+        analyses, report_data_list = [], []
         with _progress(console) as progress:
             for bag in bags:
-                recording = read_recording(bag, _follower(progress, f"reading {bag}"))
+                recording = read_recording(bag, _reporter(progress, f"reading {bag}"))
                 try:
-                    analyses.append(analyse(recording, settle, _follower(progress, f"measuring {bag}")))
-                    excerpts.append(excerpt(recording, analyses[-1]))
+                    analyses.append(analyse(recording, settle, _reporter(progress, f"measuring {bag}")))
+                    report_data_list.append(build_report_data(recording, analyses[-1]))
                 except ValueError as error:
                     raise CommandError(f"bag {bag!r}: {error}") from None
                 del recording  # and with it large temporary files, before the next one makes its own
         write_tables(analyses, folder)
-        write_report(excerpts, folder / "report.html")
+        write_report(report_data_list, folder / "report.html")
     for number, analysis in enumerate(analyses, 1):
         told = f"{analysis.duration:g} s, of which {analysis.measured:g} s count, after {analysis.settle:g} s"
         console.print(f"bag {number}: {analysis.bag}: {told}", soft_wrap=True)
@@ -70,7 +70,7 @@ def _progress(console):
     return Progress(*columns, console=console)
 
 
-def _follower(progress, description):
+def _reporter(progress, description):
     task = progress.add_task(description)
     return lambda done, total: progress.update(task, completed=done, total=total)
 

@@ -6,10 +6,10 @@ from rich.table import Table
 
 from ..bags.contents import contents
 from ..bags.repair import repair
-from ..simulation.settings import NANO
+from ..numerics.units import NANO
 
 
-def show(path):
+def run_info(path):
     """Print topics, times and origin of a bag; raises `BagError`."""
     found, console = contents(path), Console(highlight=False, markup=False)
     table = Table(title=str(path), title_justify="left")
@@ -28,7 +28,7 @@ def show(path):
         console.print(line, soft_wrap=True)
 
 
-def mend(path):
+def run_repair(path):
     """Repair a bag and print what was done; raises `BagError`."""
     console = Console(highlight=False, markup=False)
     with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:

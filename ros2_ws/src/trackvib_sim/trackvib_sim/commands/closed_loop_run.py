@@ -17,13 +17,12 @@ from ..analysis.bag_analysis import analyse
 from ..analysis.plots import run_picture
 from ..analysis.settling import settling_time
 from ..analysis.summary import AXES, SENSORS, SHORTEST_MEASURING, prepare, summarise
+from ..bags.errors import BagError
 from ..bags.reading import read_recording
-from ..bags.writing import BagError
-from ..installed import closed_loop_parameters
-from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses
+from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses, closed_loop_parameters
 from ..nodes.road_excitation import PARAMETERS as ROAD_PARAMETERS
 from ..nodes.watch import Watch
-from ..vehicle.mount_audit import MountEnergy
+from ..vehicle.mount_energy import MountEnergy
 from .result_folder import CommandError, make_folder, writing_to
 
 HIGHEST_DOMAIN = 232  # of ROS 2; beyond it DDS has no ports
@@ -53,7 +52,7 @@ class Choices:
         return f"class {self.road_class}, {self.speed:g} m/s, law {self.law}, seed {self.seed}, {self.duration:g} s"
 
 
-def perform(choices, out):
+def run_loop(choices, out):
     """Do a run; everything it leaves lies in one new folder, `out` or one named by time, road and speed.
 
     Raises

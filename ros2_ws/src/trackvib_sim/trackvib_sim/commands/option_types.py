@@ -4,7 +4,7 @@ from math import isfinite
 
 import click
 from mr_mount_controller.laws import find_law
-from mr_mount_controller.parameters import ParameterError
+from mr_mount_controller.node_base.parameters import ParameterError
 
 INTERRUPTED = 130  # exit code of what Ctrl-C has ended, as shells give it
 

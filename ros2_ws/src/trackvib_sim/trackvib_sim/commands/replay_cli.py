@@ -20,17 +20,34 @@ def _law_or_external(context, parameter, value):
 
 @click.command()
 @click.argument("bag", type=click.Path())
-@click.option("--verify", is_flag=True,
-              help="Drive the simulator on the recorded road and currents; its sensors must come out bit-identical. "
-                   "Exit code 0: they do, 1: they do not, 2: the bag does not tell enough.")
-@click.option("--law", default=None, callback=known_law, metavar="LAW",
-              help=f"Drive again on the recorded road under another control law: {', '.join(known_laws())}, or "
-                   "package.module:Class.")
-@click.option("--controller", default=None, callback=_law_or_external, metavar="LAW",
-              help=f"Give the recorded accelerations to a controller node with this law, or with '{EXTERNAL}' to the "
-                   "one that you run, and compare its currents with the recorded ones.")
-@click.option("--out", type=click.Path(file_okay=False), default=None,
-              help="Folder to make for --law and --controller.  [default: runs/<time>_replay_<law>]")
+@click.option(
+    "--verify",
+    is_flag=True,
+    help="Drive the simulator on the recorded road and currents; its sensors must come out bit-identical. "
+    "Exit code 0: they do, 1: they do not, 2: the bag does not tell enough.",
+)
+@click.option(
+    "--law",
+    default=None,
+    callback=known_law,
+    metavar="LAW",
+    help=f"Drive again on the recorded road under another control law: {', '.join(known_laws())}, or "
+    "package.module:Class.",
+)
+@click.option(
+    "--controller",
+    default=None,
+    callback=_law_or_external,
+    metavar="LAW",
+    help=f"Give the recorded accelerations to a controller node with this law, or with '{EXTERNAL}' to the "
+    "one that you run, and compare its currents with the recorded ones.",
+)
+@click.option(
+    "--out",
+    type=click.Path(file_okay=False),
+    default=None,
+    help="Folder to make for --law and --controller.  [default: runs/<time>_replay_<law>]",
+)
 def replay(bag, verify, law, controller, out):
     """Replay a bag into the simulator (--verify, --law) or into a controller (--controller)."""
     if sum((verify, law is not None, controller is not None)) != 1:
@@ -39,7 +56,7 @@ def replay(bag, verify, law, controller, out):
         raise click.UsageError("--verify leaves nothing, so --out does not go with it")
     from rich.console import Console  # imported late: --help need not wait for it
 
-    from ..bags.writing import BagError
+    from ..bags.errors import BagError
     from .result_folder import CommandError
 
     console = Console(highlight=False, markup=False)
@@ -47,17 +64,17 @@ def replay(bag, verify, law, controller, out):
     out = out or Path("runs") / f"{datetime.now():%Y%m%dT%H%M%S}_replay_{name}"
     try:
         if verify:
-            from .replay_verify import perform
+            from .replay_verify import run_replay_verify
 
-            sys.exit(perform(bag, console))
+            sys.exit(run_replay_verify(bag, console))
         if law is not None:
-            from .replay_law import perform
+            from .replay_law import run_replay_law
 
-            perform(bag, law, out, console)
+            run_replay_law(bag, law, out, console)
         else:
-            from .replay_controller import perform
+            from .replay_controller import run_replay_controller
 
-            perform(bag, None if controller == EXTERNAL else controller, out, console)
+            run_replay_controller(bag, None if controller == EXTERNAL else controller, out, console)
     except (BagError, LawError, CommandError, ValueError, OSError) as error:
         click.echo(f"{'cannot be verified' if verify else 'error'}: {error}", err=True)
         sys.exit(CANNOT_VERIFY if verify else 1)

@@ -4,20 +4,20 @@ import json
 from contextlib import contextmanager
 
 import numpy as np
-from mr_mount_controller.node_support import LOOP_WRITER_QOS
+from mr_mount_controller.node_base.qos import LOOP_WRITER_QOS
 
 from ..analysis.replay_pictures import currents_picture
-from ..analysis.stretches import period_of
+from ..analysis.segments import period_of
 from ..bags.copying import copy_bag
+from ..bags.errors import BagError
 from ..bags.files import called
 from ..bags.qos import qos_record
 from ..bags.raw_messages import sample_messages
 from ..bags.reading import read_recording
-from ..bags.writing import BagError, BagWriter
-from ..installed import closed_loop_parameters
+from ..bags.writing import BagWriter
 from ..nodes.controller_trial import ControllerTrial
-from ..nodes.processes import LoopProcesses
-from ..simulation.settings import NANO
+from ..nodes.processes import LoopProcesses, closed_loop_parameters
+from ..numerics.units import NANO
 from .closed_loop_run import own_domain
 from .progress import followed
 from .result_folder import CommandError, make_folder, writing_to
@@ -25,7 +25,7 @@ from .result_folder import CommandError, make_folder, writing_to
 REPLAYED = "/replayed/current"  # topic of the new answers
 
 
-def perform(bag, law, out, console):
+def run_replay_controller(bag, law, out, console):
     """Replay into a stock controller with a law, or with None into the one that the user runs.
 
     Leaves the recorded messages with the new answers as a bag, a summary, and a picture where there is something to
@@ -107,9 +107,7 @@ def _controller(law, rate, folder):
         return
     (folder / "log").mkdir()
     given = {"controller": {"law": law, "sample_rate": rate, "wait_for_recorder": False}}
-    processes = LoopProcesses(
-        {"controller": "mr_mount_controller"}, closed_loop_parameters(), given, folder / "log"
-    )
+    processes = LoopProcesses({"controller": "mr_mount_controller"}, closed_loop_parameters(), given, folder / "log")
 
     def check():
         if processes.ended():

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 from mr_mount_controller.laws import find_law
+from mr_mount_controller.node_base import topics
 from rich.table import Table
 
 from ..analysis.bag_analysis import analyse
@@ -14,18 +15,17 @@ from ..bags.files import called
 from ..bags.provenance import PARAMETERS_OF, parameters_with, write_parameters, write_versions
 from ..bags.reading import read_recording
 from ..bags.writing import BagWriter
-from ..nodes import topics
 from ..nodes.rerun_bag import RerunBag
 from ..nodes.simulator_parameters import prepare_again
+from ..numerics.units import NANO
 from ..simulation.closed_loop import periods_under_law
-from ..simulation.settings import NANO
 from ..simulation.simulation import RunFailed
-from ..vehicle.mount_audit import mount_account
+from ..vehicle.mount_energy import mount_energy_account
 from .progress import followed
 from .result_folder import all_or_nothing
 
 
-def perform(bag, law, out, console):
+def run_replay_law(bag, law, out, console):
     """Drive again under a law; leaves bag, summary and picture in the new folder `out`.
 
     Raises
@@ -41,7 +41,7 @@ def perform(bag, law, out, console):
     with all_or_nothing(out) as folder:
         ended = _drive(recording, simulation, chosen, law, folder / "bag", console)
         labels, summary = _compare(recording, read_recording(folder / "bag"), law, ended, folder)
-        summary["mounts_J"] = mount_account(simulation.state.audit)._asdict()
+        summary["mounts_J"] = mount_energy_account(simulation.state.mount_energy)._asdict()
         (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
     console.print(_table(summary, labels))
     console.print(f"{ended}; left in {folder}: bag/, summary.json, replay.png", soft_wrap=True)
@@ -72,14 +72,12 @@ def _drive(recording, simulation, chosen, law, path, console):
     """Run to the recorded end, or as far as road and vehicle go, into a bag; returns how it ended."""
     periods = int(recording.chassis.stamp[-1]) // simulation.settings.rates.period
     writer = BagWriter(path)
-    ended, exchange = "driven to the recorded end", None
+    ended, lockstep = "driven to the recorded end", None
     try:
         constant = (topics.ROAD_PROFILE, topics.VEHICLE_DESCRIPTION)
         controller, _ = parameters_with(recording.provenance, "law")
         other = ("versions.yaml", f"parameters{controller}.yaml")
-        known = copy_bag(
-            recording.path, writer, lambda topic: topic.endswith(constant), lambda name: name not in other
-        )
+        known = copy_bag(recording.path, writer, lambda topic: topic.endswith(constant), lambda name: name not in other)
         _describe(writer, recording, controller, law, chosen)
         space = recording.topics[topics.CHASSIS_IMU].removesuffix(topics.CHASSIS_IMU)
         rerun = RerunBag(writer, known, space, simulation)
@@ -90,14 +88,14 @@ def _drive(recording, simulation, chosen, law, path, console):
                 ended = f"the recorded road ends here: {simulation.distance:.1f} m, t = {simulation.time / NANO:.3f} s"
                 break
             try:
-                exchange = next(loop)
+                lockstep = next(loop)
             except RunFailed as failure:
                 ended = f"the run failed: {failure}"
                 break
-            rerun.write_period(exchange)
-        if exchange is None:
+            rerun.write_period(lockstep)
+        if lockstep is None:
             raise TooShort(f"nothing to compare: {ended}")
-        rerun.write_diagnostics("finished", exchange)
+        rerun.write_diagnostics("finished", lockstep)
     finally:
         writer.close()
     return ended

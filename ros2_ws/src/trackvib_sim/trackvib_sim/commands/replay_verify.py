@@ -5,13 +5,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..analysis.bag_numbers import SIDES
+from ..analysis.numbers import SIDES
 from ..analysis.summary import AXES
 from ..bags.reading import COLUMNS, read_recording
 from ..bags.versions import versions
 from ..nodes.simulator_parameters import prepare_again
+from ..numerics.units import NANO
 from ..simulation.recorded_currents import NotTold, currents_in_force
-from ..simulation.settings import NANO
 from ..simulation.simulation import CHASSIS, POWERTRAIN, RunFailed
 from .progress import followed
 
@@ -85,8 +85,8 @@ def verify(bag, console):
         time, sample = simulation.time, simulation.sample
         difference = (
             mounts.difference(time, sample.mounts)
-            or chassis.difference(time, (sample.specific_force[CHASSIS], sample.rate[CHASSIS]))
-            or powertrain.difference(time, (sample.specific_force[POWERTRAIN], sample.rate[POWERTRAIN]))
+            or chassis.difference(time, (sample.specific_force[CHASSIS], sample.angular_velocity[CHASSIS]))
+            or powertrain.difference(time, (sample.specific_force[POWERTRAIN], sample.angular_velocity[POWERTRAIN]))
         )
         if difference:
             return False, f"different: {difference}{other}"
@@ -135,7 +135,7 @@ def _other_versions(provenance):
     return f"; the bag was made with {', '.join(other)}" if other else ""
 
 
-def perform(bag, console):
+def run_replay_verify(bag, console):
     """Print the verdict on a bag; returns the exit code: 0 identical, 1 different. Raises as `verify` does."""
     identical, words = verify(bag, console)
     console.print(f"{Path(bag).name}: {words}", soft_wrap=True)

@@ -19,11 +19,11 @@ def study():
 @contextmanager
 def _ends_in_one_line(out):
     """Turn what can go wrong in a study into one line and an exit code."""
-    from ..studies.farm import FarmError  # imported late: --help need not wait for it
+    from ..studies.workers import WorkersError  # imported late: --help need not wait for it
 
     try:
         yield
-    except (FarmError, ValueError, OSError) as error:
+    except (WorkersError, ValueError, OSError) as error:
         click.echo(f"error: {error}", err=True)
         sys.exit(1)
     except KeyboardInterrupt:
@@ -38,70 +38,143 @@ _SCHEDULER = click.option("--scheduler", default=None, metavar="ADDRESS",
 
 
 @study.command()
-@click.option("--classes", type=Several(click.Choice(list(CLASSES))), default=",".join(CLASSES), show_default=True,
-              metavar="A,B,...", help="Classes of the road by ISO 8608.")
-@click.option("--speeds", type=Several(FiniteRange(0.0, 25.0, min_open=True)), default="5,10,20", show_default=True,
-              metavar="V,V,...", help="Speeds in m/s.")
-@click.option("--seeds", type=click.IntRange(1, 1000), default=3, show_default=True,
-              help="Runs a class and speed, each with its own road and track phase.")
+@click.option(
+    "--classes",
+    type=Several(click.Choice(list(CLASSES))),
+    default=",".join(CLASSES),
+    show_default=True,
+    metavar="A,B,...",
+    help="Classes of the road by ISO 8608.",
+)
+@click.option(
+    "--speeds",
+    type=Several(FiniteRange(0.0, 25.0, min_open=True)),
+    default="5,10,20",
+    show_default=True,
+    metavar="V,V,...",
+    help="Speeds in m/s.",
+)
+@click.option(
+    "--seeds",
+    type=click.IntRange(1, 1000),
+    default=3,
+    show_default=True,
+    help="Runs a class and speed, each with its own road and track phase.",
+)
 @_VEHICLE
 @_SCHEDULER
-@click.option("--out", type=click.Path(file_okay=False), default="table1", show_default=True,
-              help="Folder of the study; finished runs in it are not done again.")
+@click.option(
+    "--out",
+    type=click.Path(file_okay=False),
+    default="table1",
+    show_default=True,
+    help="Folder of the study; finished runs in it are not done again.",
+)
 def table1(classes, speeds, seeds, vehicle, scheduler, out):
     """RMS accelerations over classes and speeds, beside the paper's Table 1."""
     with _ends_in_one_line(out):
-        from ..studies.table1 import perform  # imported late, as above
+        from ..studies.paper.table1 import run_table1  # imported late, as above
 
-        perform(classes, speeds, seeds, vehicle, scheduler, out)
+        run_table1(classes, speeds, seeds, vehicle, scheduler, out)
 
 
 @study.command()
-@click.option("--scheduler", default=None, metavar="ADDRESS",
-              help="Dask scheduler whose workers do the runs.  [default: all cores of this machine]")
-@click.option("--out", type=click.Path(file_okay=False), default="figures", show_default=True,
-              help="Folder of the figures; finished runs in it are not done again.")
+@click.option(
+    "--scheduler",
+    default=None,
+    metavar="ADDRESS",
+    help="Dask scheduler whose workers do the runs.  [default: all cores of this machine]",
+)
+@click.option(
+    "--out",
+    type=click.Path(file_okay=False),
+    default="figures",
+    show_default=True,
+    help="Folder of the figures; finished runs in it are not done again.",
+)
 def figures(scheduler, out):
     """The paper's other figures as pictures, and a second solver beside ours."""
     with _ends_in_one_line(out):
-        from ..studies.figures import perform  # imported late, as above
+        from ..studies.paper.figures import run_figures  # imported late, as above
 
-        perform(out, scheduler)
+        run_figures(out, scheduler)
 
 
 @study.command()
-@click.option("--laws", type=Several(click.STRING), default=None, metavar="LAW,LAW,...",
-              help="Names of control laws, or package.module:Class.  [default: all that are installed]")
-@click.option("--scenarios", type=Several(click.Choice(list(SCENARIOS))), default=",".join(SCENARIOS),
-              show_default=True, metavar="NAME,NAME,...", help="What the vehicle does.")
-@click.option("--seeds", type=click.IntRange(1, 1000), default=3, show_default=True,
-              help="Runs a law and scenario that varies, each with its own road and track phase.")
+@click.option(
+    "--laws",
+    type=Several(click.STRING),
+    default=None,
+    metavar="LAW,LAW,...",
+    help="Names of control laws, or package.module:Class.  [default: all that are installed]",
+)
+@click.option(
+    "--scenarios",
+    type=Several(click.Choice(list(SCENARIOS))),
+    default=",".join(SCENARIOS),
+    show_default=True,
+    metavar="NAME,NAME,...",
+    help="What the vehicle does.",
+)
+@click.option(
+    "--seeds",
+    type=click.IntRange(1, 1000),
+    default=3,
+    show_default=True,
+    help="Runs a law and scenario that varies, each with its own road and track phase.",
+)
 @_VEHICLE
 @_SCHEDULER
-@click.option("--out", type=click.Path(file_okay=False), default="controllers", show_default=True,
-              help="Folder of the study; finished runs in it are not done again.")
+@click.option(
+    "--out",
+    type=click.Path(file_okay=False),
+    default="controllers",
+    show_default=True,
+    help="Folder of the study; finished runs in it are not done again.",
+)
 def controllers(laws, scenarios, seeds, vehicle, scheduler, out):
     """Every control law on roads, in an engine run-up and over a bump, beside constant currents."""
     with _ends_in_one_line(out):
-        from ..studies.controllers import perform  # imported late, as above
+        from ..studies.controllers.study import run_controllers  # imported late, as above
 
-        perform(laws, scenarios, seeds, vehicle, scheduler, out)
+        run_controllers(laws, scenarios, seeds, vehicle, scheduler, out)
 
 
 @study.command()
-@click.option("--generations", type=click.IntRange(1, 100000), default=None,
-              help="Generations of the search in all, with those done earlier.  [default: the plan's]")
-@click.option("--plan", type=click.Path(dir_okay=False), default=None,
-              help="Which parameters, bounds and effort.  [default: the plan that comes with the package]")
-@click.option("--vehicle", type=click.Path(dir_okay=False), default=None,
-              help="Vehicle file to start from.  [default: the one that comes with the package]")
-@click.option("--scheduler", default=None, metavar="ADDRESS",
-              help="Dask scheduler whose workers do the runs.  [default: all cores of this machine]")
-@click.option("--out", type=click.Path(file_okay=False), default="calibration", show_default=True,
-              help="Folder of the study; a search in it goes on.")
+@click.option(
+    "--generations",
+    type=click.IntRange(1, 100000),
+    default=None,
+    help="Generations of the search in all, with those done earlier.  [default: the plan's]",
+)
+@click.option(
+    "--plan",
+    type=click.Path(dir_okay=False),
+    default=None,
+    help="Which parameters, bounds and effort.  [default: the plan that comes with the package]",
+)
+@click.option(
+    "--vehicle",
+    type=click.Path(dir_okay=False),
+    default=None,
+    help="Vehicle file to start from.  [default: the one that comes with the package]",
+)
+@click.option(
+    "--scheduler",
+    default=None,
+    metavar="ADDRESS",
+    help="Dask scheduler whose workers do the runs.  [default: all cores of this machine]",
+)
+@click.option(
+    "--out",
+    type=click.Path(file_okay=False),
+    default="calibration",
+    show_default=True,
+    help="Folder of the study; a search in it goes on.",
+)
 def calibrate(generations, plan, vehicle, scheduler, out):
     """Fit uncertain parameters of the vehicle to the rows of the paper's Table 1 that are given."""
     with _ends_in_one_line(out):
-        from ..studies.calibration import perform  # imported late, as above
+        from ..studies.calibration.study import run_calibrate  # imported late, as above
 
-        perform(plan, vehicle, generations, scheduler, out)
+        run_calibrate(plan, vehicle, generations, scheduler, out)

@@ -6,13 +6,13 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from ..analysis.vehicle_picture import vehicle_picture
-from ..analysis.vehicle_table import Figure, Parameter, figures, parameters
-from ..installed import default_vehicle_file
+from ..data import default_vehicle_file
+from ..drawings.vehicle_picture import vehicle_picture
+from ..drawings.vehicle_table import Figure, Parameter, figures, parameters
 from ..vehicle.vehicle_file import read_vehicle
 
 
-def perform(vehicle_file, picture):
+def run_vehicle(vehicle_file, picture):
     """Print the tables of a vehicle file, or of the one that comes with the package if that is None, and draw it.
 
     Raises

@@ -6,10 +6,10 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from ..analysis.mode_pictures import mode_pictures
-from ..installed import default_vehicle_file
-from ..rui.modes import describe, modes
-from ..vehicle.linear import linear_vehicle
+from ..data import default_vehicle_file
+from ..drawings.mode_pictures import mode_pictures
+from ..rui.linear.modes import describe, modes
+from ..vehicle.linear_vehicle import build_linear_vehicle
 from ..vehicle.system import Operation, build_system
 from ..vehicle.vehicle_file import read_vehicle
 
@@ -17,7 +17,7 @@ DRAWN = 12  # most modes in the picture
 ALIKE = 0.05  # relative distance of neighbours that share a line, if the same parts move
 
 
-def perform(current, highest, picture):
+def run_modes(current, highest, picture):
     """Print the table of all modes up to `highest` [Hz] at a coil current [A] and draw the lowest oscillations."""
     if not Path(picture).absolute().parent.is_dir():
         raise ValueError(f"picture {picture}: its folder must exist")
@@ -28,7 +28,7 @@ def perform(current, highest, picture):
             f"current is {current:g} A, must be within the valid range of the mounts, {low:g} to {high:g} A"
         )
     system = build_system(vehicle, Operation(0.0, 0.0, False), 1e-4)
-    model = linear_vehicle(vehicle, system, current)
+    model = build_linear_vehicle(vehicle, system, current)
     found = [mode for mode in modes(model, highest) if mode.frequency <= highest]
     oscillating = [mode for mode in found if not mode.overdamped]
     creeping = [mode for mode in found if mode.overdamped]

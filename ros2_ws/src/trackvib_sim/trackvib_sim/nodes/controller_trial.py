@@ -5,16 +5,17 @@ from typing import NamedTuple
 
 import numpy as np
 import rclpy
-from mr_mount_controller.node_support import LOOP_QOS, LOOP_WRITER_QOS, start_ros
-from mr_mount_controller.packed_message import MessageReader
+from mr_mount_controller.node_base import topics
+from mr_mount_controller.node_base.interrupts import put_off_interrupts
+from mr_mount_controller.node_base.loop_node import start_ros
+from mr_mount_controller.node_base.packed_message import MessageReader
+from mr_mount_controller.node_base.qos import LOOP_QOS, LOOP_WRITER_QOS
 from rclpy.experimental import EventsExecutor
 from sensor_msgs.msg import Imu
 from trackvib_msgs.msg import CoilCurrent
 
-from ..simulation.exchange import Exchange
-from ..simulation.settings import NANO
-from . import topics
-from .interrupts import put_off_interrupts
+from ..numerics.units import NANO
+from ..simulation.lockstep import Lockstep
 from .partners import Gathering
 
 _ANSWER_TIMEOUT = 1.0  # s of wall time after which the controller is silent
@@ -42,7 +43,7 @@ class ControllerTrial:
         self._executor = EventsExecutor()
         self._executor.add_node(self._node)
         self._reader = MessageReader(CoilCurrent, {"sample_stamp": "iI", "current": "2d"})
-        self._exchange = Exchange(0.0, (-np.inf, np.inf))
+        self._lockstep = Lockstep(0.0, (-np.inf, np.inf))
         self._latest = None
         self._heard, self._given_up = -1, None  # latest sample answered, now and when silence fell, ns
         return self
@@ -68,19 +69,19 @@ class ControllerTrial:
 
         Who is silent is no longer waited for until he is heard again.
         """
-        exchange = self._exchange
-        exchange.publish(stamp)
+        lockstep = self._lockstep
+        lockstep.publish(stamp)
         for publisher, data in zip(self._imus, (chassis, powertrain), strict=True):
             publisher.publish(data)
         self._spin(0.0)
         if self._given_up is None or self._heard > self._given_up:
             self._given_up = None
             end = time.monotonic() + _ANSWER_TIMEOUT
-            while not exchange.answered and (left := end - time.monotonic()) > 0.0:
+            while not lockstep.answered and (left := end - time.monotonic()) > 0.0:
                 self._spin(min(left, _TICK))
-            if not exchange.answered:
+            if not lockstep.answered:
                 self._given_up = self._heard
-        return self._latest if exchange.answered else None
+        return self._latest if lockstep.answered else None
 
     def _spin(self, timeout):
         with put_off_interrupts():
@@ -93,7 +94,7 @@ class ControllerTrial:
     def _on_answer(self, data):
         seconds, nanoseconds, *current = self._reader.read(data)
         stamp = seconds * NANO + nanoseconds
-        outcome = self._exchange.offer(stamp, current)
+        outcome = self._lockstep.offer(stamp, current)
         if outcome == "accepted":
             self._latest = Answer(tuple(current), bytes(data))
         if outcome in ("accepted", "late"):

@@ -1,42 +1,45 @@
 """What the simulator tells about itself: its diagnostics while it runs, its last line at the end."""
 
-from ..simulation.settings import NANO
-from ..vehicle.mount_audit import mount_account
+from ..numerics.units import NANO
+from ..vehicle.mount_energy import mount_energy_account
 
 
-def health(control, simulation, exchange, phases, silent, controllers):
+def health(control, simulation, lockstep, phases, silent, controllers):
     """Return the level of the diagnostics ("ok", "warning", "error") and their values by name.
 
-    Takes the node's `RunControl`, `Simulation`, `Exchange` and `PhaseClock`, whether the controller is silent, and how
+    Takes the node's `RunControl`, `Simulation`, `Lockstep` and `PhaseClock`, whether the controller is silent, and how
     many nodes answer.
     """
-    level = "warning" if silent or exchange.counts["saturated"] or controllers > 1 else "ok"
+    level = "warning" if silent or lockstep.counts["saturated"] or controllers > 1 else "ok"
     return "error" if control.state == "failed" else level, {
         "state": control.state,
         "epoch": control.epoch,
         "controllers": controllers,
         "real_time_factor": round(phases.factor(simulation.time / NANO), 3),
-        **progress(simulation, exchange),
+        **progress(simulation, lockstep),
         **{f"{phase}_us_per_period": cost for phase, cost in phases.costs().items()},
     }
 
 
-def progress(simulation, exchange):
+def progress(simulation, lockstep):
     """Return what a run itself tells by name, whoever runs it: time, currents in force, counts, work on the mounts."""
-    left, right = exchange.currents.tolist()
+    left, right = lockstep.currents.tolist()
     return {
         "time": simulation.time / NANO,
         "current_left": left,
         "current_right": right,
-        **exchange.counts,
-        **{f"mount_{part}_J": energy for part, energy in mount_account(simulation.state.audit)._asdict().items()},
+        **lockstep.counts,
+        **{
+            f"mount_{part}_J": energy
+            for part, energy in mount_energy_account(simulation.state.mount_energy)._asdict().items()
+        },
     }
 
 
-def summary(simulation, exchange, phases):
+def summary(simulation, lockstep, phases):
     """Return in words how a run went: its pace, where the time of a period went, what was counted."""
     simulated = simulation.time / NANO
     costs = ", ".join(f"{phase} {cost:.0f} us" for phase, cost in phases.costs().items())
-    counts = ", ".join(f"{count} {name}" for name, count in exchange.counts.items() if count)
+    counts = ", ".join(f"{count} {name}" for name, count in lockstep.counts.items() if count)
     pace = f"{simulated:g} s simulated at {phases.factor(simulated):.2f} x real time; a period: {costs}"
     return f"{pace}; answers: {counts}"

@@ -3,13 +3,13 @@
 from importlib import import_module
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
-from mr_mount_controller.packed_message import PackedMessage
+from mr_mount_controller.node_base import topics
+from mr_mount_controller.node_base.packed_message import PackedMessage
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu
 from trackvib_msgs.msg import MountState
 
-from ..simulation.settings import NANO
-from . import topics
+from ..numerics.units import NANO
 
 
 def message_type(name):
@@ -83,7 +83,7 @@ class OdometryMessage:
         o = m.pose.pose.orientation
         o.w, o.x, o.y, o.z = state.attitude[0].tolist()
         set_vector(m.twist.twist.linear, sample.hull_velocity[0].tolist())
-        set_vector(m.twist.twist.angular, sample.hull_rate[0].tolist())
+        set_vector(m.twist.twist.angular, sample.hull_angular_velocity[0].tolist())
         return m
 
 

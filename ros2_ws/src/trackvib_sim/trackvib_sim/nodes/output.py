@@ -1,7 +1,8 @@
 """What the simulator publishes: its publishers, and when each has something to say."""
 
 from diagnostic_msgs.msg import DiagnosticArray
-from mr_mount_controller.node_support import LATCHED_QOS, LOOP_WRITER_QOS
+from mr_mount_controller.node_base import topics
+from mr_mount_controller.node_base.qos import CLOCK_QOS, LATCHED_QOS, LOOP_WRITER_QOS
 from nav_msgs.msg import Odometry
 from rclpy.duration import Duration
 from rosgraph_msgs.msg import Clock
@@ -9,11 +10,9 @@ from sensor_msgs.msg import Imu
 from std_msgs.msg import String
 from trackvib_msgs.msg import MountState
 
-from ..simulation.settings import NANO
+from ..numerics.units import NANO
 from ..simulation.simulation import CHASSIS, POWERTRAIN
-from . import topics
 from .messages import ImuMessage, MountMessage, OdometryMessage, diagnostics
-from .qos import CLOCK_QOS
 
 DIAGNOSTICS_RATE = 10  # Hz of simulated time
 _FLUSH = Duration(seconds=2)  # for the last messages to arrive
@@ -54,7 +53,7 @@ class SimulatorOutput:
     def publish_sample(self):
         """Publish the sample of the last period; odometry and clock where it is their turn."""
         simulation, stamp = self._simulation, self._simulation.time
-        force, rate = simulation.sample.specific_force, simulation.sample.rate
+        force, rate = simulation.sample.specific_force, simulation.sample.angular_velocity
         # the accelerations first: whoever answers them works while the rest is published
         for sensor in (CHASSIS, POWERTRAIN):
             self._imu_out[sensor].publish(self._imus[sensor].fill(stamp, force[sensor], rate[sensor]))

@@ -3,12 +3,12 @@
 import time
 
 from builtin_interfaces.msg import Time
-from mr_mount_controller.node_support import LATCHED_QOS, NodeError
+from mr_mount_controller.node_base import topics
+from mr_mount_controller.node_base.loop_node import NodeError
+from mr_mount_controller.node_base.qos import CLOCK_QOS, LATCHED_QOS
 from rosgraph_msgs.msg import Clock
 
-from ..simulation.settings import NANO
-from . import topics
-from .qos import CLOCK_QOS
+from ..numerics.units import NANO
 
 # A message waits in a queue of 1000 at worst, so a recorder this far behind has lost nothing yet.
 _LAG = NANO // 4  # ns of simulated time
@@ -45,9 +45,7 @@ class SecondClock:
     def refuse(self):
         """Raise `NodeError` if there is one that is ahead."""
         if self.ahead:
-            raise NodeError(
-                f"another simulator drives {topics.CLOCK} in this ROS domain; set another ROS_DOMAIN_ID"
-            )
+            raise NodeError(f"another simulator drives {topics.CLOCK} in this ROS domain; set another ROS_DOMAIN_ID")
 
     def start_anew(self):
         """Note, before it happens, that the node's own time goes back to zero."""
@@ -76,9 +74,7 @@ class RecorderLag:
         if not self.there or self._near() or self._node.spin_until(self._near, _TIMEOUT) or self._node.stopping():
             return
         self._recorded = None
-        self._node.get_logger().warning(
-            "the recorder does not keep up, no longer waiting for it; messages may be lost"
-        )
+        self._node.get_logger().warning("the recorder does not keep up, no longer waiting for it; messages may be lost")
 
     def start_anew(self):
         """Note that time has gone back to zero."""

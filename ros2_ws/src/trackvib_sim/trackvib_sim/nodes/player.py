@@ -6,20 +6,20 @@ from collections import deque
 from fnmatch import fnmatchcase
 from itertools import groupby
 
-from mr_mount_controller.node_support import LoopNode, NodeError, run_node
-from mr_mount_controller.parameters import Parameter, ParameterError
+from mr_mount_controller.node_base.loop_node import LoopNode, NodeError, run_node
+from mr_mount_controller.node_base.parameters import Parameter, ParameterError
+from mr_mount_controller.node_base.qos import CLOCK_QOS
+from mr_mount_controller.node_base.topics import CLOCK
 from rclpy.duration import Duration
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
+from ..bags.errors import BagError
 from ..bags.playing import is_best_effort, is_latched, open_bag
-from ..bags.writing import BagError
-from ..simulation.settings import NANO
+from ..numerics.units import NANO
 from .messages import message_type
 from .partners import Gathering
-from .qos import CLOCK_QOS
 from .run_control import RunControl
-from .topics import CLOCK
 
 PARAMETERS = (
     Parameter("bag", "", "Folder of the bag, or one .mcap file."),
@@ -51,7 +51,7 @@ class PlayerNode(LoopNode):
             self._reader = open_bag(self.settings["bag"])
         except BagError as error:
             raise NodeError(str(error)) from None
-        self._time, self._end = self._stretch()
+        self._time, self._end = self._span()
         self._begin = self._time
         self._connections = self._chosen()
         self._outputs = {}  # by topic in the bag
@@ -82,7 +82,7 @@ class PlayerNode(LoopNode):
         """Close the bag."""
         self._reader.close()
 
-    def _stretch(self):
+    def _span(self):
         """Return begin and end [ns] in the time of the bag."""
         first, last = self._reader.start_time, self._reader.end_time - 1
         length = (last - first) / NANO

@@ -7,7 +7,7 @@ import subprocess
 import time
 from pathlib import Path
 
-from ament_index_python.packages import get_package_prefix
+from ament_index_python.packages import get_package_prefix, get_package_share_directory
 
 # Packages of the executables, in the order in which they start.
 FOUR_PROCESSES = {
@@ -19,6 +19,11 @@ FOUR_PROCESSES = {
 ONE_PROCESS = {"recorder": "trackvib_sim", "one_process": "trackvib_sim"}  # a recorder that is slow must not hold it
 _GRACE = 10.0  # s for a process to end by itself
 _PR_SET_PDEATHSIG = 1  # Linux: signal to a child whose parent has died
+
+
+def closed_loop_parameters():
+    """Return the path of the node parameters that `closed_loop.launch.py` and `trackvib run` share."""
+    return Path(get_package_share_directory("trackvib_sim")) / "config" / "closed_loop.yaml"
 
 
 class LoopProcesses:

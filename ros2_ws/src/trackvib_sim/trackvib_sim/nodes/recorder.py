@@ -6,15 +6,17 @@ import time
 from datetime import datetime
 
 from builtin_interfaces.msg import Time
-from mr_mount_controller.node_support import LATCHED_QOS, LoopNode, NodeError, run_node
-from mr_mount_controller.parameters import Parameter
+from mr_mount_controller.node_base import topics
+from mr_mount_controller.node_base.loop_node import LoopNode, NodeError, run_node
+from mr_mount_controller.node_base.parameters import Parameter
+from mr_mount_controller.node_base.qos import LATCHED_QOS
 from rclpy.serialization import deserialize_message
 
+from ..bags.errors import BagError
 from ..bags.provenance import write_parameters, write_versions
 from ..bags.timekeeping import Timekeeping
-from ..bags.writing import COMPRESSIONS, BagError, BagWriter
-from ..simulation.settings import NANO
-from . import topics
+from ..bags.writing import COMPRESSIONS, BagWriter
+from ..numerics.units import NANO
 from .messages import message_type
 from .provenance import is_known, parameters_of, publishing_nodes
 from .topic_choice import TopicChoice, subscribe

@@ -1,12 +1,12 @@
 """Writes into a bag what simulator and controller would have published, without their nodes."""
 
+from mr_mount_controller.node_base import topics
 from rclpy.serialization import serialize_message
 from rosgraph_msgs.msg import Clock
 from trackvib_msgs.msg import CoilCurrent
 
-from ..simulation.settings import NANO
+from ..numerics.units import NANO
 from ..simulation.simulation import CHASSIS, POWERTRAIN
-from . import topics
 from .health import progress
 from .messages import ImuMessage, MountMessage, OdometryMessage, diagnostics, set_stamp
 from .output import DIAGNOSTICS_RATE
@@ -29,26 +29,26 @@ class RerunBag:
         """Write where the vehicle stands before the first period."""
         self._write_odometry()
 
-    def write_period(self, exchange):
-        """Write the sample of the last period and its answer, which an `Exchange` holds."""
+    def write_period(self, lockstep):
+        """Write the sample of the last period and its answer, which a `Lockstep` holds."""
         simulation = self._simulation
         stamp, sample = simulation.time, simulation.sample
-        force, rate = sample.specific_force, sample.rate
+        force, rate = sample.specific_force, sample.angular_velocity
         self._write(topics.CHASSIS_IMU, self._chassis.fill(stamp, force[CHASSIS], rate[CHASSIS]))
         self._write(topics.POWERTRAIN_IMU, self._powertrain.fill(stamp, force[POWERTRAIN], rate[POWERTRAIN]))
         self._write(topics.MOUNT_STATE, self._mounts.fill(stamp, sample.mounts))
         if simulation.periods % self._periods_an_odometry == 0:
             self._write_odometry()
         if simulation.periods % self._periods_a_diagnosis == 0:
-            self.write_diagnostics("running", exchange)
+            self.write_diagnostics("running", lockstep)
         set_stamp(self._answer, stamp)
         self._answer.sample_stamp = self._answer.header.stamp
-        self._answer.current = exchange.currents
+        self._answer.current = lockstep.currents
         self._write(topics.COIL_CURRENT, serialize_message(self._answer))
 
-    def write_diagnostics(self, state, exchange):
+    def write_diagnostics(self, state, lockstep):
         """Write the state of the run and what it tells."""
-        values = {"state": state, "epoch": 1, **progress(self._simulation, exchange)}
+        values = {"state": state, "epoch": 1, **progress(self._simulation, lockstep)}
         level = "error" if state == "failed" else "ok"
         self._write(topics.DIAGNOSTICS, serialize_message(diagnostics(self._simulation.time, level, state, values)))
 

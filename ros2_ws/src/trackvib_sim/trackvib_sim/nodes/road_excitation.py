@@ -2,15 +2,15 @@
 
 import sys
 
-from mr_mount_controller.node_support import LATCHED_QOS, LoopNode, run_node
-from mr_mount_controller.parameters import Parameter
+from mr_mount_controller.node_base.loop_node import LoopNode, run_node
+from mr_mount_controller.node_base.parameters import Parameter
+from mr_mount_controller.node_base.qos import LATCHED_QOS, ROAD_QOS
+from mr_mount_controller.node_base.topics import ODOMETRY, ROAD_FRAME, ROAD_PROFILE
 from nav_msgs.msg import Odometry
 from trackvib_msgs.msg import RoadProfile
 
 from ..road.feeder import RoadFeeder
 from ..road.iso8608 import CLASSES, FADE, LEVEL_UNTIL, Iso8608Road
-from .qos import ROAD_QOS
-from .topics import ODOMETRY, ROAD_FRAME, ROAD_PROFILE
 
 PARAMETERS = (
     Parameter("road_class", "E", "Class of the road by ISO 8608.", choices=tuple(CLASSES)),

@@ -2,7 +2,7 @@
 
 from std_srvs.srv import Trigger
 
-from ..simulation.settings import NANO
+from ..numerics.units import NANO
 
 
 class RunControl:

@@ -4,18 +4,18 @@ import math
 import sys
 import time
 
-from mr_mount_controller.node_support import LOOP_QOS, LoopNode, NodeError, run_node
-from mr_mount_controller.packed_message import MessageReader
+from mr_mount_controller.node_base import topics
+from mr_mount_controller.node_base.loop_node import LoopNode, NodeError, run_node
+from mr_mount_controller.node_base.packed_message import MessageReader
+from mr_mount_controller.node_base.qos import LOOP_QOS, ROAD_QOS
 from trackvib_msgs.msg import CoilCurrent, RoadProfile
 
-from ..simulation.exchange import Exchange
-from ..simulation.settings import NANO
+from ..numerics.units import NANO
+from ..simulation.lockstep import Lockstep
 from ..simulation.simulation import RunFailed
-from . import topics
 from .health import health, summary
 from .output import DIAGNOSTICS_RATE, SimulatorOutput
 from .partners import Gathering, RecorderLag, SecondClock
-from .qos import ROAD_QOS
 from .run_control import RunControl
 from .simulator_parameters import PARAMETERS, prepare
 from .timing import PhaseClock
@@ -31,7 +31,7 @@ class SimulatorNode(LoopNode):
     def __init__(self):
         super().__init__("simulator", PARAMETERS)
         s = self.settings
-        self._lockstep = s["pace"] == "lockstep"
+        self._waits_for_answers = s["pace"] == "lockstep"
         self._simulation, usable, vehicle_text = prepare(s)
         self._usable = usable
         self._begin_counts()
@@ -50,7 +50,7 @@ class SimulatorNode(LoopNode):
 
     def _begin_counts(self):
         """Begin all that a run counts."""
-        self._exchange = Exchange(self.settings["passive_current"], self._usable, self._lockstep)
+        self._lockstep = Lockstep(self.settings["passive_current"], self._usable, self._waits_for_answers)
         self._phases = PhaseClock("physics", "publishing", "answer", "holding")
         self._silent = False  # no answer came in time; the loop runs on without waiting
         self._heard = self._heard_before = -1  # latest sample that somebody has answered, now and when silence fell, ns
@@ -75,7 +75,7 @@ class SimulatorNode(LoopNode):
                 self._one_period()
         if not self.stopping():
             self._control.state = "finished"
-            self.get_logger().info(summary(self._simulation, self._exchange, self._phases))
+            self.get_logger().info(summary(self._simulation, self._lockstep, self._phases))
 
     def close(self):
         """Say how it ended and let the last messages arrive."""
@@ -110,18 +110,18 @@ class SimulatorNode(LoopNode):
             return
         self._phases.start("physics")
         try:
-            self._simulation.advance(self._exchange.currents)
+            self._simulation.advance(self._lockstep.currents)
         except RunFailed as failure:
             self._control.state = "failed"
             raise NodeError(f"run failed: {failure}") from None
         self._phases.start("publishing")
-        self._exchange.publish(self._time())
+        self._lockstep.publish(self._time())
         self._output.publish_sample()
         if self._simulation.periods % (self._simulation.settings.rates.control // DIAGNOSTICS_RATE) == 0:
             self._publish_diagnostics()
             self._second_clock.refuse()
-        self._phases.start("answer" if self._lockstep else "holding")
-        if self._lockstep:
+        self._phases.start("answer" if self._waits_for_answers else "holding")
+        if self._waits_for_answers:
             self._wait_for_answer()
             self._phases.start("holding")
             if self._recorder:
@@ -163,7 +163,7 @@ class SimulatorNode(LoopNode):
         if self._simulation.road_is_enough():
             return True
         where = f"at {self._simulation.distance:.1f} m (t = {self._time() / NANO:.3f} s)"
-        if not self._lockstep:
+        if not self._waits_for_answers:
             self._control.state = "failed"
             raise NodeError(f"no road ahead {where}")
         self.get_logger().warning(f"no road ahead {where}, waiting for {topics.ROAD_PROFILE}")
@@ -174,22 +174,22 @@ class SimulatorNode(LoopNode):
         return there
 
     def _wait_for_answer(self):
-        answered = lambda: self._exchange.answered  # noqa: E731
+        answered = lambda: self._lockstep.answered  # noqa: E731
         if self._silent and self._heard == self._heard_before:
             self.spin_once(0.0)
             if not answered():
-                self._exchange.counts["silent_periods"] += 1
+                self._lockstep.counts["silent_periods"] += 1
             return
         if self._silent:
             self.get_logger().info("the controller is heard again, waiting for every answer")
         self._silent = False
         if not self.spin_until(answered, self.settings["answer_timeout"]) and not self.stopping():
-            self._exchange.counts["silent_periods"] += 1
+            self._lockstep.counts["silent_periods"] += 1
             self._on_silence(f"no answer to the sample at t = {self._time() / NANO:.3f} s")
 
     def _wait_for_wall_clock(self):
         due = self._start + self._time() / NANO / self.settings["real_time_factor"]
-        counts = self._exchange.counts
+        counts = self._lockstep.counts
         if time.perf_counter() > due + self._simulation.settings.rates.period / NANO:
             if not counts["overruns"]:
                 self.get_logger().warning("this machine is slower than the pace asked for; overruns are counted")
@@ -201,7 +201,7 @@ class SimulatorNode(LoopNode):
             before = counts.copy()
             self.spin_once(0.0)
         timeout = self.settings["answer_timeout"] * self.settings["real_time_factor"]
-        silent = self._time() - self._exchange.answered_stamp > timeout * NANO
+        silent = self._time() - self._lockstep.answered_stamp > timeout * NANO
         counts["silent_periods"] += silent
         if silent and not self._silent:
             self._on_silence(f"no answer since t = {self._exchange.answered_stamp / NANO:.3f} s")
@@ -214,7 +214,7 @@ class SimulatorNode(LoopNode):
             self._control.state = "failed"
             raise NodeError(f"{what}; on_silence is 'stop'")
         if policy == "passive":
-            self._exchange.fall_back(self.settings["passive_current"])
+            self._lockstep.fall_back(self.settings["passive_current"])
         action = "holding the last current" if policy == "hold" else "falling back to the passive current"
         self.get_logger().warning(f"{what}; {action} until the controller is heard again")
         self._publish_diagnostics()
@@ -225,7 +225,7 @@ class SimulatorNode(LoopNode):
         seconds, nanoseconds, *currents = self._answer.read(data)
         stamp = seconds * NANO + nanoseconds
         # who is late is on the way back; who repeats itself or makes no sense is not
-        if self._exchange.offer(stamp, currents) in ("accepted", "late"):
+        if self._lockstep.offer(stamp, currents) in ("accepted", "late"):
             self._heard = max(self._heard, stamp)
 
     def _on_road(self, patch):
@@ -239,7 +239,7 @@ class SimulatorNode(LoopNode):
         if controllers > 1 and not self._warned:
             self._warned = True
             self.get_logger().warning(f"{controllers} nodes answer on {topics.COIL_CURRENT}; the first answer counts")
-        level, values = health(self._control, self._simulation, self._exchange, self._phases, self._silent, controllers)
+        level, values = health(self._control, self._simulation, self._lockstep, self._phases, self._silent, controllers)
         values["duration"] = self.settings["duration"]
         self._output.publish_diagnostics(level, values["state"], values)
 

@@ -2,10 +2,10 @@
 
 from contextlib import suppress
 
-from mr_mount_controller.parameters import Parameter, ParameterError
+from mr_mount_controller.node_base.parameters import Parameter, ParameterError
 
 from ..bags.provenance import parameters_with
-from ..installed import default_vehicle_file
+from ..data import default_vehicle_file
 from ..simulation.settings import Rates, RunSettings
 from ..simulation.simulation import Simulation
 from ..vehicle.coil import usable_current

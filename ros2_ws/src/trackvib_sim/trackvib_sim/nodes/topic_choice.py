@@ -3,13 +3,13 @@
 import re
 from typing import NamedTuple
 
-from mr_mount_controller.parameters import ParameterError
+from mr_mount_controller.node_base import topics
+from mr_mount_controller.node_base.parameters import ParameterError
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
 from rclpy.validate_topic_name import validate_topic_name
 
 from ..bags.qos import qos_record
-from . import topics
 from .messages import message_type
 
 _DEPTH = 10_000  # messages that may wait: a disk may stand still for a moment

@@ -4,11 +4,10 @@ import time
 
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
-from mr_mount_controller.node_support import start_ros
+from mr_mount_controller.node_base.interrupts import put_off_interrupts
+from mr_mount_controller.node_base.loop_node import start_ros
+from mr_mount_controller.node_base.topics import CHASSIS_IMU, DIAGNOSTICS
 from rclpy.experimental import EventsExecutor
-
-from .interrupts import put_off_interrupts
-from .topics import CHASSIS_IMU, DIAGNOSTICS
 
 _LISTENING = 0.7  # s in which nodes that are there make themselves known
 

@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..rui.compiled import kernel
+from ..numerics.compiled import kernel
 
 CLASSES = "ABCDEFGH"
 REFERENCE_FREQUENCY = 0.1  # 1/m

@@ -17,16 +17,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .cells import columns
-from .compiled import kernel
+from ..numerics.compiled import kernel
+from ..numerics.spatial import load3, scale, vector
 from .cut_pin import check_pin, pin_name
-from .cuts import apply_force, new_cuts, open_cuts
-from .kinematics import ORIGIN, RATE, ROTATION, VELOCITY, new_motion, update_motion
-from .riccati import ANGULAR, HINGE, LINEAR, new_response, solve_accelerations
 from .solve import accelerations, store_hinge_wrenches
-from .spatial import load3, scale, vector
 from .state import Accelerations
-from .tree import build_tree, new_rows, to_lanes
+from .sweeps.articulated import apply_force, new_cuts, open_cuts
+from .sweeps.cells import columns
+from .sweeps.kinematics import MotionOffset, new_motion, update_motion
+from .sweeps.riccati import ResponseOffset, new_response, solve_accelerations
+from .sweeps.tree import build_tree, new_rows, to_lanes
 
 DEPENDENT = 1e-12  # smallest eigenvalue, relative to the two bodies without any hinge
 
@@ -108,8 +108,8 @@ def _prepare(bodies, pins, state, gravity):
     body = np.array([[rows[pin.body_a] for pin in pins], [rows[pin.body_b] for pin in pins]], dtype=int)
     at = tree.row[body]
     local = np.array([[pin.point_a for pin in pins], [pin.point_b for pin in pins]], dtype=float).reshape(2, -1, 3)
-    rotation = columns(motion, ROTATION, 9)[at].reshape(2, -1, 3, 3)
-    rate = columns(motion, RATE, 3)[at]
+    rotation = columns(motion, MotionOffset.ROTATION, 9)[at].reshape(2, -1, 3, 3)
+    rate = columns(motion, MotionOffset.ANGULAR_VELOCITY, 3)[at]
     arm = np.einsum("skij,skj->ski", rotation, local)
     turning = np.cross(rate, arm)
     across = np.array([_across(pin.axis) for pin in pins]).reshape(-1, 2, 3)
@@ -119,8 +119,8 @@ def _prepare(bodies, pins, state, gravity):
         _Ends(
             body=body,
             arm=arm,
-            place=columns(motion, ORIGIN, 3)[at] + arm,
-            velocity=columns(motion, VELOCITY, 3)[at] + turning,
+            place=columns(motion, MotionOffset.ORIGIN, 3)[at] + arm,
+            velocity=columns(motion, MotionOffset.VELOCITY, 3)[at] + turning,
             centripetal=np.cross(rate, turning),
             across=np.einsum("kij,kcj->kci", rotation[0], across),
         ),
@@ -146,7 +146,9 @@ def _end_accelerations(ends, found):
 
 def _unit_responses(tree, lanes, ends):
     """Return the `Accelerations` by a pair of forces of 1 N on the ends, on a toward T, alone: two a pin."""
-    still = lanes._replace(velocity=0.0 * lanes.velocity, rate=0.0 * lanes.rate, hinge_rate=new_rows(tree))
+    still = lanes._replace(
+        velocity=0.0 * lanes.velocity, angular_velocity=0.0 * lanes.angular_velocity, hinge_rate=new_rows(tree)
+    )
     motion, cuts, response, no_torque = new_motion(tree), new_cuts(tree), new_response(tree), new_rows(tree)
     update_motion(tree, still, motion)
     units = []
@@ -155,8 +157,13 @@ def _unit_responses(tree, lanes, ends):
             wrench = np.zeros((len(tree.row), 6))
             pair = tree.row[ends.body[:, k]]
             _respond(tree, motion, no_torque, pair, ends.place[:, k], force, cuts, response, wrench)
-            linear, angular = columns(response, LINEAR, 3)[tree.row], columns(response, ANGULAR, 3)[tree.row]
-            units.append(Accelerations(linear, angular, columns(response, HINGE, 1)[tree.row, 0], wrench))
+            linear, angular = (
+                columns(response, ResponseOffset.LINEAR, 3)[tree.row],
+                columns(response, ResponseOffset.ANGULAR, 3)[tree.row],
+            )
+            units.append(
+                Accelerations(linear, angular, columns(response, ResponseOffset.HINGE, 1)[tree.row, 0], wrench)
+            )
     return units
 
 

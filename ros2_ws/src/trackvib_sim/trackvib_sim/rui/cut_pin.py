@@ -5,7 +5,7 @@ from math import isfinite
 
 import numpy as np
 
-from .placement import parent_rows
+from .reference.placement import parent_rows
 
 PARALLEL = 1e-9  # rounding allowed of axes and lengths, relative
 
@@ -76,12 +76,12 @@ def _check_loop(bodies, pin, rows):
         if not (
             hinge.kind == "locked"
             or (hinge.kind == "revolute" and np.linalg.norm(np.cross(own, axis)) <= PARALLEL)
-            or (hinge.kind == "slide" and abs(own @ axis) <= PARALLEL)
+            or (hinge.kind == "prismatic" and abs(own @ axis) <= PARALLEL)
         ):
             raise ValueError(
                 f"{pin_name(pin)}: in its loop, hinge {hinge.number} of body {bodies[row].name!r} is {hinge.kind} with "
-                f"axis {tuple(hinge.axis)}; accepted are revolute parallel to {tuple(pin.axis)}, slide perpendicular "
-                "to it and locked"
+                f"axis {tuple(hinge.axis)}; accepted are revolute parallel to {tuple(pin.axis)}, prismatic "
+                "perpendicular to it and locked"
             )
         along.append(sign * np.dot(hinge.place, axis))
         size = max(size, np.abs(hinge.place).max())

@@ -2,15 +2,15 @@
 
 import numpy as np
 
-from .cells import columns
-from .compiled import kernel
-from .cuts import apply_wrench, new_cuts, open_cuts, prescribe
-from .elastic import apply_elastic_hinges, elastic_place, elastic_wrench
-from .kinematics import ANGULAR_DRIFT, DRIFT, ORIGIN, motion_vector, new_motion, update_motion
-from .riccati import ANGULAR, HINGE, LINEAR, hinge_wrench, new_response, solve_accelerations
-from .spatial import add, cross, scale, subtract
+from ..numerics.compiled import kernel
+from ..numerics.spatial import add, cross, scale, subtract
 from .state import Accelerations
-from .tree import MOBILE, build_tree, new_rows, to_lanes
+from .sweeps.articulated import apply_wrench, new_cuts, open_cuts, prescribe
+from .sweeps.cells import columns
+from .sweeps.elastic import apply_elastic_hinges, elastic_place, elastic_wrench
+from .sweeps.kinematics import MotionOffset, motion_vector, new_motion, update_motion
+from .sweeps.riccati import ResponseOffset, hinge_wrench, new_response, solve_accelerations
+from .sweeps.tree import BodyOffset, build_tree, new_rows, to_lanes
 
 
 def accelerations(bodies, state, loads, gravity=(0.0, 0.0, -9.81)):
@@ -35,7 +35,7 @@ def accelerations(bodies, state, loads, gravity=(0.0, 0.0, -9.81)):
     torques[tree.row] = loads.torque
     _evaluate(tree, to_lanes(tree, state), torques, loads, motion, cuts, response)
     n = len(bodies)
-    hinge = columns(response, HINGE, 1)[tree.row, 0]
+    hinge = columns(response, ResponseOffset.HINGE, 1)[tree.row, 0]
     found = Accelerations(np.zeros((n, 3)), np.zeros((n, 3)), hinge, np.zeros((n, 6)))
     _collect(tree, motion, cuts, response, found)
     found.hinge[~tree.moves] = 0.0
@@ -52,7 +52,7 @@ def _evaluate(tree, state, torques, loads, motion, cuts, response):
         row = tree.row[b]
         force, moment = loads.force[b], loads.moment[b]
         apply_wrench(cuts, row, (force[0], force[1], force[2]), (moment[0], moment[1], moment[2]))
-        if tree.moves[b] and tree.body[row // w, MOBILE * w + row % w] == 0.0:
+        if tree.moves[b] and tree.body[row // w, BodyOffset.MOBILE * w + row % w] == 0.0:
             prescribe(cuts, row, loads.acceleration[b])
     solve_accelerations(tree, motion, cuts, response)
 
@@ -63,14 +63,19 @@ def _collect(tree, motion, cuts, response, found):
     for b in range(tree.row.size):
         row = tree.row[b]
         cells, i = response.cells[row // w], row % w
-        drift, angular = motion_vector(motion, DRIFT, row), motion_vector(motion, ANGULAR_DRIFT, row)
+        drift, angular = (
+            motion_vector(motion, MotionOffset.DRIFT, row),
+            motion_vector(motion, MotionOffset.ANGULAR_DRIFT, row),
+        )
         for k in range(3):
-            found.linear[b, k] = cells[(LINEAR + k) * w + i] + drift[k] + tree.gravity[k]
-            found.angular[b, k] = cells[(ANGULAR + k) * w + i] + angular[k]
+            found.linear[b, k] = cells[(ResponseOffset.LINEAR + k) * w + i] + drift[k] + tree.gravity[k]
+            found.angular[b, k] = cells[(ResponseOffset.ANGULAR + k) * w + i] + angular[k]
     store_hinge_wrenches(tree, motion, cuts, response, found.wrench)
     for k in range(tree.elastic.child.size):
         force, moment = elastic_wrench(tree, motion, k)
-        lever = subtract(motion_vector(motion, ORIGIN, tree.elastic.child[k]), elastic_place(tree, motion, k))
+        lever = subtract(
+            motion_vector(motion, MotionOffset.ORIGIN, tree.elastic.child[k]), elastic_place(tree, motion, k)
+        )
         on_parent = scale(-1.0, force), scale(-1.0, add(moment, cross(lever, force)))
         _store_wrench(found.wrench[tree.elastic.number[k]], *on_parent)
 

@@ -14,7 +14,7 @@ class TreeState(NamedTuple):
     position: np.ndarray  # (r, 3) origin, m
     attitude: np.ndarray  # (r, 4) unit quaternion w, x, y, z
     velocity: np.ndarray  # (r, 3) of the origin, m/s
-    rate: np.ndarray  # (r, 3) angular velocity, rad/s
+    angular_velocity: np.ndarray  # (r, 3) rad/s
     hinge: np.ndarray  # (n,) rad or m, in the row of the child; those of free bodies and locked hinges are not used
     hinge_rate: np.ndarray  # (n,) rad/s or m/s
 
@@ -24,7 +24,7 @@ class Loads(NamedTuple):
 
     force: np.ndarray  # (n, 3) N
     moment: np.ndarray  # (n, 3) about the body's origin, N m
-    torque: np.ndarray  # (n,) of the hinge on the child along the axis, N m (N for a slide)
+    torque: np.ndarray  # (n,) of the hinge on the child along the axis, N m (N for a prismatic one)
     acceleration: np.ndarray  # (n,) of prescribed hinges, rad/s^2 or m/s^2
 
 

@@ -5,7 +5,7 @@ from math import isfinite
 
 import numpy as np
 
-KINDS = ("revolute", "slide", "locked", "elastic")
+KINDS = ("revolute", "prismatic", "locked", "elastic")
 
 
 @dataclass(frozen=True)
@@ -16,7 +16,7 @@ class Hinge:
     ----------
     number : int
     kind : str
-        "revolute" (the paper's column hinge) turns about the axis, "slide" moves along it, "locked" does neither.
+        "revolute" (the paper's column hinge) turns about the axis, "prismatic" moves along it, "locked" does neither.
         "elastic" does not constrain the body at all: a bushing with stiffness and damping in all six directions.
     parent : str
         Name of the body on the root's side.
@@ -25,11 +25,11 @@ class Hinge:
     axis : sequence of 3 floats
         Fixed in parent and child alike, of any length but zero; not used by "locked" and "elastic".
     prescribed : bool
-        The motion of a "revolute" or "slide" is given, its torque or force is a result.
+        The motion of a "revolute" or "prismatic" is given, its torque or force is a result.
     stiffness, damping : sequence of 6 floats
         Of an "elastic" hinge, parent's axes: three displacements [N/m, N s/m], three rotations [N m/rad, N m s/rad].
 
-    The coordinate (rad, or m for a slide) is that of the child relative to the parent.
+    The coordinate (rad, or m for a prismatic one) is that of the child relative to the parent.
     """
 
     number: int
@@ -124,11 +124,11 @@ def _check_hinge(body, names):
         raise ValueError(f"{where}: parent {hinge.parent!r} must stand before it; known are {', '.join(names)}")
     _check_numbers(f"{where}: place", hinge.place, 3)
     _check_numbers(f"{where}: axis", hinge.axis, 3)
-    if hinge.kind in ("revolute", "slide"):
+    if hinge.kind in ("revolute", "prismatic"):
         if not any(hinge.axis):
             raise ValueError(f"{where}: axis is {tuple(hinge.axis)}, must not be zero")
     elif hinge.prescribed:
-        raise ValueError(f"{where}: a {hinge.kind} hinge has no motion to prescribe, only revolute and slide have")
+        raise ValueError(f"{where}: a {hinge.kind} hinge has no motion to prescribe, only revolute and prismatic have")
     for item in ("stiffness", "damping"):
         values = _check_numbers(f"{where}: {item}", getattr(hinge, item), 6)
         if min(values) < 0.0:

@@ -5,9 +5,9 @@ from typing import NamedTuple
 import numpy as np
 from mr_mount_controller.laws.base import Sample, answer
 
+from ..numerics.units import NANO
 from ..road.feeder import RoadFeeder
-from .exchange import Exchange
-from .settings import NANO
+from .lockstep import Lockstep
 from .simulation import CHASSIS, HORIZON, POWERTRAIN
 
 
@@ -16,7 +16,7 @@ class Record(NamedTuple):
 
     stamp: np.ndarray  # (k,) ns
     specific_force: np.ndarray  # (k, 2, 3) m/s^2, chassis and powertrain
-    rate: np.ndarray  # (k, 2, 3) rad/s
+    angular_velocity: np.ndarray  # (k, 2, 3) rad/s
     current: np.ndarray  # (k, 2) demanded in answer to the row's sample, A
     coil_current: np.ndarray  # (k, 2) at the end of the period, A
     deflection: np.ndarray  # (k, 2, 3) of the mounts at the end of the period, hull axes, m
@@ -41,25 +41,29 @@ def run_closed_loop(simulation, road, law, periods):
 
     shapes = ((2, 3), (2, 3), (2,), (2,), (2, 3), (2, 3))
     record = Record(np.zeros(periods, dtype=np.int64), *(np.zeros((periods, *shape)) for shape in shapes))
-    for k, exchange in zip(range(periods), periods_under_law(simulation, law, feed), strict=False):
-        force, rate, mounts = simulation.sample.specific_force, simulation.sample.rate, simulation.sample.mounts
+    for k, lockstep in zip(range(periods), periods_under_law(simulation, law, feed), strict=False):
+        force, rate, mounts = (
+            simulation.sample.specific_force,
+            simulation.sample.angular_velocity,
+            simulation.sample.mounts,
+        )
         record.stamp[k] = simulation.time
-        record.specific_force[k], record.rate[k] = force[: POWERTRAIN + 1], rate[: POWERTRAIN + 1]
-        record.current[k] = exchange.currents
+        record.specific_force[k], record.angular_velocity[k] = force[: POWERTRAIN + 1], rate[: POWERTRAIN + 1]
+        record.current[k] = lockstep.currents
         record.coil_current[k], record.deflection[k], record.force[k] = mounts.current, mounts.deflection, mounts.force
     return record
 
 
 def periods_under_law(simulation, law, feed=lambda: None):
-    """Yield the `Exchange` after each control period under a control law, without end.
+    """Yield the `Lockstep` after each control period under a control law, without end.
 
     `feed()` is called before each period, to see to the road ahead. Raises as `run_closed_loop` does.
     """
-    exchange = Exchange(simulation.settings.passive_current, (-np.inf, np.inf))
+    lockstep = Lockstep(simulation.settings.passive_current, (-np.inf, np.inf))
     while True:
         feed()
-        simulation.advance(exchange.currents)
-        force, rate = simulation.sample.specific_force, simulation.sample.rate
+        simulation.advance(lockstep.currents)
+        force, rate = simulation.sample.specific_force, simulation.sample.angular_velocity
         sample = Sample(
             simulation.time / NANO,
             tuple(force[CHASSIS].tolist()),
@@ -67,6 +71,6 @@ def periods_under_law(simulation, law, feed=lambda: None):
             tuple(force[POWERTRAIN].tolist()),
             tuple(rate[POWERTRAIN].tolist()),
         )
-        exchange.publish(simulation.time)
-        exchange.offer(simulation.time, answer(law, sample))
-        yield exchange
+        lockstep.publish(simulation.time)
+        lockstep.offer(simulation.time, answer(law, sample))
+        yield lockstep

@@ -4,8 +4,8 @@ from copy import deepcopy
 
 import numpy as np
 
+from ..numerics.units import NANO
 from ..vehicle.coil import drive_coils
-from .settings import NANO
 
 
 class NotTold(ValueError):

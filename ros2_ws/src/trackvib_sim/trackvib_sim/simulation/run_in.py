@@ -5,11 +5,11 @@ import numpy as np
 from ..road.store import Road
 from ..vehicle.coil import settle_coils
 from ..vehicle.engine import angle_before
-from ..vehicle.mount_audit import open_audit
+from ..vehicle.mount_energy import start_mount_energy
 from ..vehicle.system import new_state, new_work
-from ..vehicle.tracks.initial import lay_tracks
-from ..vehicle.tracks.nodes import PLACE, STRIDE
-from .step import GOOD, REASONS, Sensors, advance, new_sample
+from ..vehicle.tracks.initial import assemble_tracks
+from ..vehicle.tracks.nodes import STRIDE, NodeOffset
+from .step import REASONS, Sensors, Status, advance, new_sample
 
 DURATION = 3.0  # s; the slowest motion, of the driver's speed control, has a time constant of 0.9 s
 _SPACING = 1.0  # m
@@ -33,18 +33,18 @@ def run_in(vehicle, system, settings):
     speed, run_up = settings.operation.speed, settings.operation.run_up
     if run_up:
         state.crank_angle[0] = angle_before(system.engine, DURATION + run_up.begin)
-    lay_tracks(vehicle, system, state, speed, settings.operation.track_phase)
+    assemble_tracks(vehicle, system, state, speed, settings.operation.track_phase)
     samples = int((2.0 * _BEHIND + 1.5 * DURATION * speed) / _SPACING) + 2
     road = Road(int(-_BEHIND / _SPACING), _SPACING, np.zeros((2, samples)))
     sensors = Sensors(np.zeros(0, int), np.zeros((0, 3)))
     steps = round(DURATION / system.dt)
     demanded = np.full(2, settings.passive_current)
     status = advance(system, state, road, demanded, steps, work, sensors, new_sample(sensors))
-    if status != GOOD:
+    if status != Status.GOOD:
         raise CannotRoll(
             f"the vehicle cannot roll at {speed:g} m/s on a level road: {REASONS[status]}; check the vehicle file"
         )
-    open_audit(state.audit)
+    start_mount_energy(state.mount_energy)
     return _back_at_start(state)
 
 
@@ -52,6 +52,6 @@ def _back_at_start(state):
     """Shift everything by the hull's x and y."""
     nodes = state.tracks.nodes.reshape(2, -1, STRIDE)
     for axis in range(2):
-        nodes[:, PLACE + axis] -= state.tree.position[0, axis]
+        nodes[:, NodeOffset.PLACE + axis] -= state.tree.position[0, axis]
         state.tree.position[0, axis] = 0.0
     return state

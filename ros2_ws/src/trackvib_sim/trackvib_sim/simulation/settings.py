@@ -2,9 +2,8 @@
 
 from dataclasses import dataclass
 
+from ..numerics.units import NANO
 from ..vehicle.system import Operation
-
-NANO = 1_000_000_000
 
 
 @dataclass(frozen=True)

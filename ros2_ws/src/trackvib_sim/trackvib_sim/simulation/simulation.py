@@ -5,11 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..numerics.units import NANO
 from ..road.store import RoadStore
 from ..vehicle.system import body_rows, build_system, new_work
 from .run_in import run_in
-from .settings import NANO
-from .step import GOOD, REASONS, Sensors, advance_many, control_periods, new_sample, observe
+from .step import REASONS, Sensors, Status, advance_many, control_periods, new_sample, observe
 
 CHASSIS, POWERTRAIN = 0, 1  # rows of the sample
 HORIZON = 50.0  # m of road that a run in one process keeps ahead of the vehicle
@@ -79,7 +79,7 @@ class Simulation:
 
     def road_is_enough(self):
         """Return whether the next period can be done with the road at hand."""
-        return self._stretch(1) is not None
+        return self._road_around(1) is not None
 
     def advance(self, demanded):
         """Do one control period with the demanded currents (2,) [A].
@@ -89,10 +89,10 @@ class Simulation:
         RunFailed
             The state left what the model can describe. `sample` is still the last good one.
         """
-        self._hold(self._stretch(1))
+        self._hold(self._road_around(1))
         self._demanded[:] = demanded
         status = next(self._statuses)
-        self._end_periods(status, 1 if status == GOOD else 0)
+        self._end_periods(status, 1 if status == Status.GOOD else 0)
         self.sample, self._next = self._next, self.sample
 
     def _hold(self, road):
@@ -113,7 +113,7 @@ class Simulation:
         status, done = advance_many(
             self.system,
             self.state,
-            self._stretch(len(force)),
+            self._road_around(len(force)),
             demanded,
             self.settings.rates.steps,
             self._work,
@@ -126,9 +126,9 @@ class Simulation:
 
     def _end_periods(self, status, done):
         self.periods += done
-        if status != GOOD:
+        if status != Status.GOOD:
             raise RunFailed(f"{REASONS[status]} after t = {self.time / NANO:.3f} s")
 
-    def _stretch(self, periods):
+    def _road_around(self, periods):
         ahead = 1.5 * periods * self.settings.operation.speed / self.settings.rates.control
         return self.road.around(self.distance - self._reach, self.distance + self._reach + ahead)

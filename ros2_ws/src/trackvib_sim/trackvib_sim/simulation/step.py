@@ -1,42 +1,46 @@
 """One physics step, and a control period of them in a single compiled call."""
 
+from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
 
-from ..rui.compiled import inlined, kernel
-from ..rui.cuts import open_cuts
-from ..rui.integrator import integrate
-from ..rui.kinematics import (
-    RATE,
-    VELOCITY,
-    body_axes,
-    motion_vector,
-    point_place,
-    rotation,
-    update_motion,
-)
-from ..rui.riccati import point_specific_force, solve_accelerations
-from ..rui.spatial import load3, store3
+from ..numerics.compiled import inlined, kernel
+from ..numerics.spatial import load3, store3
+from ..rui.sweeps.articulated import open_cuts
+from ..rui.sweeps.integrator import integrate
+from ..rui.sweeps.kinematics import MotionOffset, body_axes, motion_vector, point_place, rotation, update_motion
+from ..rui.sweeps.riccati import point_specific_force, solve_accelerations
 from ..vehicle.coil import drive_coils
 from ..vehicle.driver import add_driver
 from ..vehicle.engine import add_engine, imposed_displacement, turn_crank
 from ..vehicle.hinge_springs import add_hinge_springs
-from ..vehicle.mount_audit import audit_mounts
+from ..vehicle.mount_energy import update_mount_energy
 from ..vehicle.mr_mounts import MountSample, add_mounts, new_mount_sample, observe_mounts
 from ..vehicle.suspension import add_suspension
 from ..vehicle.tracks.tracks import add_tracks, move_tracks, track_skips, wheel_below_road
 
-GOOD, NOT_FINITE, OVERTURNED, BELOW_ROAD, AIRBORNE, SKIPPED = range(6)
+
+class Status(IntEnum):
+    """How a step ended: well, or the state left the valid range."""
+
+    GOOD = 0
+    NOT_FINITE = 1
+    OVERTURNED = 2
+    BELOW_ROAD = 3
+    AIRBORNE = 4
+    SKIPPED = 5
+
+
 LEAST_UPRIGHT = 0.36  # cosine of the hull's tilt; 1.2 rad is beyond what the suspension and the driver are made for
 LONGEST_FLIGHT = 1.0  # s; from 1.2 m, where no driver goes and no running gear is made for
 
 REASONS = {
-    NOT_FINITE: "the state is no longer finite",
-    OVERTURNED: "the vehicle has overturned",
-    BELOW_ROAD: "a road wheel lies below the road",
-    SKIPPED: "a track has skipped a tooth of its sprocket",
-    AIRBORNE: f"no shoe has touched the ground for {LONGEST_FLIGHT:g} s",
+    Status.NOT_FINITE: "the state is no longer finite",
+    Status.OVERTURNED: "the vehicle has overturned",
+    Status.BELOW_ROAD: "a road wheel lies below the road",
+    Status.SKIPPED: "a track has skipped a tooth of its sprocket",
+    Status.AIRBORNE: f"no shoe has touched the ground for {LONGEST_FLIGHT:g} s",
 }
 
 
@@ -54,9 +58,9 @@ class Sample(NamedTuple):
     """
 
     specific_force: np.ndarray  # (m, 3) acceleration less gravity, body axes, m/s^2
-    rate: np.ndarray  # (m, 3) angular velocity, body axes, rad/s
+    angular_velocity: np.ndarray  # (m, 3) body axes, rad/s
     hull_velocity: np.ndarray  # (1, 3) of the hull's origin, hull axes, m/s
-    hull_rate: np.ndarray  # (1, 3) hull axes, rad/s
+    hull_angular_velocity: np.ndarray  # (1, 3) hull axes, rad/s
     mounts: MountSample
 
 
@@ -78,7 +82,9 @@ def add_forces(system, state, road, work):
     add_tracks(system.tracks, state.tracks, state.tree, road, motion, cuts, work.tracks, system.dt)
     displacement, displacement_rate = imposed_displacement(system.engine, state.crank_angle[0])
     add_mounts(system.mounts, motion, cuts, state.coils.field, displacement, displacement_rate)
-    audit_mounts(system.mounts, motion, state.coils.field, displacement, displacement_rate, system.dt, state.audit)
+    update_mount_energy(
+        system.mounts, motion, state.coils.field, displacement, displacement_rate, system.dt, state.mount_energy
+    )
     add_engine(system.engine, state.crank_angle[0], motion, cuts)
     add_driver(system.driver, motion, cuts, state.speed_integral, system.dt)
 
@@ -90,10 +96,10 @@ def measure(work, sensors, sample, share):
         body = sensors.body[i]
         place = point_place(work.motion, body, load3(sensors.place, i))
         force = body_axes(work.motion, body, point_specific_force(work.motion, work.response, body, place))
-        rate = body_axes(work.motion, body, motion_vector(work.motion, RATE, body))
+        rate = body_axes(work.motion, body, motion_vector(work.motion, MotionOffset.ANGULAR_VELOCITY, body))
         for k in range(3):
             sample.specific_force[i, k] += share * force[k]
-            sample.rate[i, k] += share * rate[k]
+            sample.angular_velocity[i, k] += share * rate[k]
 
 
 @inlined
@@ -107,20 +113,20 @@ def end_step(system, state, road, work, sensors, sample, share):
     move_tracks(system.tracks, state.tracks, work.motion, system.tree.gravity, work.tracks, system.dt)
     state.crank_angle[0] = turn_crank(system.engine, state.crank_angle[0], system.dt)
     # the hull's accelerations act on its speed, every other one on that of its hinge
-    total = state.tree.velocity.sum() + state.tree.rate.sum() + state.tree.hinge_rate.sum()
+    total = state.tree.velocity.sum() + state.tree.angular_velocity.sum() + state.tree.hinge_rate.sum()
     # not np.isfinite: it compiles to total - total == 0, which reassociation turns into "true"
     if not abs(total) < np.inf:
-        return NOT_FINITE
+        return Status.NOT_FINITE
     if rotation(work.motion, system.driver.hull)[8] < LEAST_UPRIGHT:
-        return OVERTURNED
+        return Status.OVERTURNED
     if wheel_below_road(system.tracks, road, work.motion):
-        return BELOW_ROAD
+        return Status.BELOW_ROAD
     state.flight[0] = 0.0 if work.tracks.touching[0] > 0.0 else state.flight[0] + system.dt
     if state.flight[0] > LONGEST_FLIGHT:
-        return AIRBORNE
+        return Status.AIRBORNE
     if track_skips(work.tracks):
-        return SKIPPED
-    return GOOD
+        return Status.SKIPPED
+    return Status.GOOD
 
 
 @kernel
@@ -130,16 +136,16 @@ def advance(system, state, road, demanded, steps, work, sensors, sample):
     Fills `sample` with the period's means. Returns `GOOD`, or at once what made the state leave the valid range.
     """
     sample.specific_force[:] = 0.0
-    sample.rate[:] = 0.0
+    sample.angular_velocity[:] = 0.0
     for _ in range(steps):
         drive_coils(system.coil, demanded, state.coils)
         add_forces(system, state, road, work)
         solve_accelerations(system.tree, work.motion, work.cuts, work.response)
         status = end_step(system, state, road, work, sensors, sample, 1.0 / steps)
-        if status != GOOD:
+        if status != Status.GOOD:
             return status
     observe(system, state, work.motion, sample)
-    return GOOD
+    return Status.GOOD
 
 
 @kernel
@@ -152,7 +158,7 @@ def control_periods(system, state, road, demanded, steps, work, sensors, followi
     """
     while True:
         status = advance(system, state, road, demanded, steps, work, sensors, following)
-        if status == GOOD:
+        if status == Status.GOOD:
             following, last = last, following
         yield status
 
@@ -165,13 +171,13 @@ def advance_many(system, state, road, demanded, steps, work, sensors, sample, fo
     """
     for k in range(speed.size):
         status = advance(system, state, road, demanded, steps, work, sensors, sample)
-        if status != GOOD:
+        if status != Status.GOOD:
             return status, k
         speed[k] = sample.hull_velocity[0, 0]
         for i in range(sensors.body.size):
             for axis in range(3):
                 force[k, i, axis] = sample.specific_force[i, axis]
-    return GOOD, speed.size
+    return Status.GOOD, speed.size
 
 
 @kernel
@@ -179,7 +185,11 @@ def observe(system, state, motion, sample):
     """Fill what a sample says about the end of the period."""
     update_motion(system.tree, state.tree, motion)
     hull = system.driver.hull
-    store3(sample.hull_velocity, 0, body_axes(motion, hull, motion_vector(motion, VELOCITY, hull)))
-    store3(sample.hull_rate, 0, body_axes(motion, hull, motion_vector(motion, RATE, hull)))
+    store3(sample.hull_velocity, 0, body_axes(motion, hull, motion_vector(motion, MotionOffset.VELOCITY, hull)))
+    store3(
+        sample.hull_angular_velocity,
+        0,
+        body_axes(motion, hull, motion_vector(motion, MotionOffset.ANGULAR_VELOCITY, hull)),
+    )
     displacement, displacement_rate = imposed_displacement(system.engine, state.crank_angle[0])
     observe_mounts(system.mounts, motion, state.coils, displacement, displacement_rate, sample.mounts)

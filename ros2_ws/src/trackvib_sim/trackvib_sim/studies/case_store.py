@@ -9,10 +9,12 @@ from typing import Generic, TypeVar
 
 from pydantic import TypeAdapter, ValidationError
 
-from .drive import Case, Result
+from .case import Case, Result
 
 PACKAGE = Path(__file__).parents[1]
 DECISIVE = (  # modules that `drive` runs; all others may change without making its results void
+    "data/__init__.py",
+    "numerics/**/*.py",
     "rui/**/*.py",
     "road/**/*.py",
     "vehicle/**/*.py",
@@ -20,8 +22,8 @@ DECISIVE = (  # modules that `drive` runs; all others may change without making 
     "analysis/iso2631.py",
     "analysis/settling.py",
     "analysis/vibration.py",
-    "studies/drive.py",
-    "studies/controlled.py",
+    "studies/case.py",
+    "studies/controllers/scenario.py",
 )
 C, R = TypeVar("C"), TypeVar("R")
 

@@ -27,14 +27,14 @@ HULL_HINGE = {LEFT: 10, RIGHT: 22}
 WHEEL_HINGE = {LEFT: 46, RIGHT: 52}
 
 
-def body_table(vehicle):
+def build_body_table(vehicle):
     """Return the table of bodies (`rui.table.Body`), parents before children, for `rui.tree.build_tree`."""
     v = vehicle
     table = [
         Body(7, "hull", v.hull.mass, v.hull.centre, inertia_matrix(v.hull)),
         _hinged(5, "turret", v.turret, Hinge(6, "revolute", "hull", v.turret.place, (0, 0, 1))),
         _hinged(3, "gun_mount", v.gun_mount, Hinge(4, "revolute", "turret", v.gun_mount.place, (0, -1, 0))),
-        _hinged(1, "recoil_part", v.recoil_part, Hinge(2, "slide", "gun_mount", v.recoil_part.place, (1, 0, 0))),
+        _hinged(1, "recoil_part", v.recoil_part, Hinge(2, "prismatic", "gun_mount", v.recoil_part.place, (1, 0, 0))),
     ]
     # The hull's inputs in the paper's order: hinge 10 brings the first one, hinge 8 the last.
     for side in SIDES:

@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import expm
 
-from ..rui.compiled import kernel
+from ..numerics.compiled import kernel
 
 _EXACT = 1e-6  # of a physics step
 
@@ -48,7 +48,7 @@ class CoilState(NamedTuple):
     field: np.ndarray  # (2,) that would hold the magnetic field as it is; what the mounts feel, A
 
 
-def coil(vehicle, dt):
+def build_coil(vehicle, dt):
     """Return the record for physics steps of dt [s].
 
     Raises

@@ -4,10 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..rui.compiled import kernel
-from ..rui.cuts import apply_wrench
-from ..rui.kinematics import HINGE_AXIS, ORIGIN, RATE, VELOCITY, body_axes, motion_vector, rotation
-from ..rui.spatial import scale
+from ..numerics.compiled import kernel
+from ..numerics.spatial import scale
+from ..rui.sweeps.articulated import apply_wrench
+from ..rui.sweeps.kinematics import MotionOffset, body_axes, motion_vector, rotation
 from .body_tree import SIDES, SPROCKET
 from .tracks.sprockets import pitch_radius
 
@@ -28,7 +28,7 @@ class Driver(NamedTuple):
     lane_gain: float  # rad/m
 
 
-def driver(vehicle, rows, speed):
+def build_driver(vehicle, rows, speed):
     """Return the record for a wanted speed [m/s]."""
     d = vehicle.driver
     return Driver(
@@ -49,7 +49,7 @@ def driver(vehicle, rows, speed):
 @kernel
 def add_driver(driver, motion, cuts, integral, dt):
     """Add the torques and advance the integral (1,) [N] of the speed error; it rests while the force is cut."""
-    forward = body_axes(motion, driver.hull, motion_vector(motion, VELOCITY, driver.hull))[0]
+    forward = body_axes(motion, driver.hull, motion_vector(motion, MotionOffset.VELOCITY, driver.hull))[0]
     error = driver.speed - forward
     wanted = driver.speed_gain * error + integral[0]
     force = min(max(wanted, -driver.force_limit), driver.force_limit)
@@ -57,8 +57,8 @@ def add_driver(driver, motion, cuts, integral, dt):
         integral[0] += driver.integral_gain * error * dt
     turn = rotation(motion, driver.hull)
     heading = np.arctan2(turn[3], turn[0])
-    wanted_heading = -driver.lane_gain * motion_vector(motion, ORIGIN, driver.hull)[1]
-    turning = motion_vector(motion, RATE, driver.hull)[2]
+    wanted_heading = -driver.lane_gain * motion_vector(motion, MotionOffset.ORIGIN, driver.hull)[1]
+    turning = motion_vector(motion, MotionOffset.ANGULAR_VELOCITY, driver.hull)[2]
     moment = driver.heading_gain * (wanted_heading - heading) - driver.heading_damping * turning
     steering = 0.5 * moment / driver.half_tread
     # a moment to the left pulls on the right side
@@ -69,6 +69,6 @@ def add_driver(driver, motion, cuts, integral, dt):
 @kernel
 def turn_sprocket(driver, motion, cuts, sprocket, torque):
     """Turn a sprocket about its axle by a torque [N m] that stands on the hull."""
-    moment = scale(torque, motion_vector(motion, HINGE_AXIS, sprocket))
+    moment = scale(torque, motion_vector(motion, MotionOffset.HINGE_AXIS, sprocket))
     apply_wrench(cuts, sprocket, (0.0, 0.0, 0.0), moment)
     apply_wrench(cuts, driver.hull, (0.0, 0.0, 0.0), scale(-1.0, moment))

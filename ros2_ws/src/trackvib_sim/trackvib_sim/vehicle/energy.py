@@ -11,30 +11,45 @@ in terms of what it would take at the mean speeds, at those before and at those 
 whose first and last speeds differ: left out, they are 1 % of the drive's work.
 """
 
+from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
 
-from ..rui.cells import get3, get6
-from ..rui.compiled import kernel
-from ..rui.cuts import FORCE, MOMENT
-from ..rui.kinematics import ORIGIN, RATE, VELOCITY, motion_vector, rotation, update_motion
-from ..rui.spatial import cross, dot, rotate, symmetric_product, turn_inertia
-from ..rui.tree import FOOT_SHARE, INERTIA, MASS, MASS_MOMENT, SHARE
+from ..numerics.compiled import kernel
+from ..numerics.spatial import cross, dot, rotate, symmetric_product, turn_inertia
+from ..rui.sweeps.articulated import CutOffset
+from ..rui.sweeps.cells import get3, get6
+from ..rui.sweeps.kinematics import MotionOffset, motion_vector, rotation, update_motion
+from ..rui.sweeps.tree import BodyOffset
 from .driver import add_driver
 from .engine import add_engine, imposed_displacement
 from .hinge_springs import add_hinge_springs
 from .mr_mounts import mount_deflection, mount_energy, mount_force
 from .suspension import add_suspension
 from .system import new_state, new_work
-from .tracks.nodes import SHEAR, STRIDE
-from .tracks.nodes import VELOCITY as NODE_VELOCITY
-from .tracks.tracks import SINKS, add_tracks
+from .tracks.nodes import STRIDE, NodeOffset
+from .tracks.tracks import TRACK_PARTS, TrackPart, add_tracks
 
-PARTS = ("links", "ground", "rims", "teeth", "tensioners", "hinges", "suspension", "mounts")
-HINGES, SUSPENSION, MOUNTS = range(SINKS, len(PARTS))  # behind the tracks' own
-SOURCES = ("driver", "engine")
-DRIVER, ENGINE = range(len(SOURCES))
+
+class Part(IntEnum):
+    """Where a vehicle stores and dissipates energy; the tracks' own, `TrackPart`, come first."""
+
+    LINKS = TrackPart.LINKS
+    GROUND = TrackPart.GROUND
+    RIMS = TrackPart.RIMS
+    TEETH = TrackPart.TEETH
+    TENSIONERS = TrackPart.TENSIONERS
+    HINGES = TRACK_PARTS
+    SUSPENSION = TRACK_PARTS + 1
+    MOUNTS = TRACK_PARTS + 2
+
+
+class Source(IntEnum):
+    """What gives energy to a vehicle."""
+
+    DRIVER = 0
+    ENGINE = 1
 
 
 class Account(NamedTuple):
@@ -42,14 +57,14 @@ class Account(NamedTuple):
 
     kinetic: np.ndarray  # (1,) of all bodies and shoes, J
     gravitational: np.ndarray  # (1,) of the same, zero at the global origin, J
-    stored: np.ndarray  # (8,) in each of `PARTS`, bump stops with the suspension, J
-    heat: np.ndarray  # (8,) W
-    given: np.ndarray  # (2,) by each of `SOURCES`, W
+    stored: np.ndarray  # (8,) by `Part`, bump stops with the suspension, J
+    dissipation: np.ndarray  # (8,) W
+    given: np.ndarray  # (2,) by `Source`, W
 
 
 def new_account():
     """Return an empty record."""
-    return Account(np.zeros(1), np.zeros(1), np.zeros(len(PARTS)), np.zeros(len(PARTS)), np.zeros(len(SOURCES)))
+    return Account(np.zeros(1), np.zeros(1), np.zeros(len(Part)), np.zeros(len(Part)), np.zeros(len(Source)))
 
 
 def energy(account):
@@ -77,14 +92,14 @@ class EnergyMeter:
 
     def close(self, state, road):
         """Fill the account, given the state after the step on a `road.store.Road`."""
-        heat = []
+        dissipation = []
         for share in (0.0, 1.0, 0.5):  # of the speeds after the step; those of the account come last
             _copy(self._before, self._state)
             for speed, after in zip(_speeds(self._state), _speeds(state), strict=True):
                 speed += share * (after - speed)
             _evaluate(self._system, self._state, road, self._work, self.account)
-            heat.append(self.account.heat.copy())
-        self.account.heat[:] += 0.25 * (heat[0] - heat[1])
+            dissipation.append(self.account.dissipation.copy())
+        self.account.dissipation[:] += 0.25 * (dissipation[0] - dissipation[1])
 
 
 def _copy(state, to):
@@ -97,8 +112,8 @@ def _copy(state, to):
 
 def _speeds(state):
     tree, tracks = state.tree, state.tracks
-    nodes = tracks.nodes[:, NODE_VELOCITY * STRIDE : SHEAR * STRIDE]
-    return tree.velocity, tree.rate, tree.hinge_rate, nodes, tracks.tensioner.rate
+    nodes = tracks.nodes[:, NodeOffset.VELOCITY * STRIDE : NodeOffset.SHEAR * STRIDE]
+    return tree.velocity, tree.angular_velocity, tree.hinge_rate, nodes, tracks.tensioner.rate
 
 
 @kernel
@@ -110,20 +125,20 @@ def _evaluate(system, state, road, work, account):
     _add_bodies(tree, motion, account)
     _add_shoes(system, state.tracks.nodes, account)
     account.stored[:] = 0.0
-    account.heat[:] = 0.0
+    account.dissipation[:] = 0.0
     _add_hinge_springs(system.springs, state.tree, work.torques, account)
     _add_suspension(system.suspension, state.tree, work.torques, account)
     cuts.cells[:] = 0.0
     add_engine(system.engine, state.crank_angle[0], motion, cuts)
-    account.given[ENGINE] = _power(motion, cuts)
+    account.given[Source.ENGINE] = _power(motion, cuts)
     _add_mounts(system, state, motion, account)
     cuts.cells[:] = 0.0
     add_driver(system.driver, motion, cuts, state.speed_integral, system.dt)
-    account.given[DRIVER] = _power(motion, cuts)
+    account.given[Source.DRIVER] = _power(motion, cuts)
     add_tracks(system.tracks, state.tracks, state.tree, road, motion, cuts, work.tracks, system.dt)
-    for part in range(SINKS):
+    for part in range(TRACK_PARTS):
         account.stored[part] += work.tracks.stored[part]
-        account.heat[part] += work.tracks.heat[part]
+        account.dissipation[part] += work.tracks.dissipation[part]
 
 
 @kernel
@@ -132,14 +147,17 @@ def _add_bodies(tree, motion, account):
     for j in range(tree.parent.size):
         body = tree.body[j]
         for i in range(w):
-            if body[SHARE * w + i] + body[FOOT_SHARE * w + i] == 0.0:
+            if body[BodyOffset.SHARE * w + i] + body[BodyOffset.FOOT_SHARE * w + i] == 0.0:
                 continue  # an empty lane
-            row, mass = j * w + i, body[MASS * w + i]
+            row, mass = j * w + i, body[BodyOffset.MASS * w + i]
             turn = rotation(motion, row)
-            to_centre = rotate(turn, get3(body, MASS_MOMENT, w, i))
-            inertia = turn_inertia(turn, get6(body, INERTIA, w, i))
-            origin, rate = motion_vector(motion, ORIGIN, row), motion_vector(motion, RATE, row)
-            velocity = motion_vector(motion, VELOCITY, row)
+            to_centre = rotate(turn, get3(body, BodyOffset.MASS_MOMENT, w, i))
+            inertia = turn_inertia(turn, get6(body, BodyOffset.INERTIA, w, i))
+            origin, rate = (
+                motion_vector(motion, MotionOffset.ORIGIN, row),
+                motion_vector(motion, MotionOffset.ANGULAR_VELOCITY, row),
+            )
+            velocity = motion_vector(motion, MotionOffset.VELOCITY, row)
             account.kinetic[0] += 0.5 * mass * dot(velocity, velocity) + dot(velocity, cross(rate, to_centre))
             account.kinetic[0] += 0.5 * dot(rate, symmetric_product(inertia, rate))
             for k in range(3):
@@ -152,7 +170,7 @@ def _add_shoes(system, nodes, account):
     for side in range(2):
         for k in range(3):
             for i in range(1, system.tracks.chain.links + 1):
-                speed = nodes[side, (NODE_VELOCITY + k) * STRIDE + i]
+                speed = nodes[side, (NodeOffset.VELOCITY + k) * STRIDE + i]
                 account.kinetic[0] += 0.5 * mass * speed * speed
                 account.gravitational[0] -= mass * gravity[k] * nodes[side, k * STRIDE + i]
 
@@ -165,8 +183,8 @@ def _add_hinge_springs(springs, state, torques, account):
     for k in range(springs.row.size):
         b = springs.row[k]
         elastic = springs.stiffness[k] * state.hinge[b]
-        account.stored[HINGES] += 0.5 * elastic * state.hinge[b]
-        account.heat[HINGES] -= (torques[b] + elastic) * state.hinge_rate[b]
+        account.stored[Part.HINGES] += 0.5 * elastic * state.hinge[b]
+        account.dissipation[Part.HINGES] -= (torques[b] + elastic) * state.hinge_rate[b]
 
 
 @kernel
@@ -178,8 +196,8 @@ def _add_suspension(suspension, state, torques, account):
         b = s.row[i]
         angle = state.hinge[b]
         bar, stop = s.bar_stiffness * angle, s.stop_stiffness * max(0.0, angle - s.stop_angle)
-        account.stored[SUSPENSION] += (s.preload + 0.5 * bar) * angle + 0.5 * stop * (angle - s.stop_angle)
-        account.heat[SUSPENSION] -= (torques[b] + s.preload + bar + stop) * state.hinge_rate[b]
+        account.stored[Part.SUSPENSION] += (s.preload + 0.5 * bar) * angle + 0.5 * stop * (angle - s.stop_angle)
+        account.dissipation[Part.SUSPENSION] -= (torques[b] + s.preload + bar + stop) * state.hinge_rate[b]
 
 
 @kernel
@@ -190,10 +208,10 @@ def _add_mounts(system, state, motion, account):
     for index in range(2):
         current = state.coils.field[index]
         _, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)
-        force, heat = mount_force(mounts, current, l, l_d)
-        account.stored[MOUNTS] += mount_energy(mounts, current, l)
-        account.heat[MOUNTS] += heat
-        account.given[ENGINE] += force[2] * imposed_rate
+        force, dissipation = mount_force(mounts, current, l, l_d)
+        account.stored[Part.MOUNTS] += mount_energy(mounts, current, l)
+        account.dissipation[Part.MOUNTS] += dissipation
+        account.given[Source.ENGINE] += force[2] * imposed_rate
 
 
 @kernel
@@ -203,6 +221,8 @@ def _power(motion, cuts):
     for j in range(len(cuts.cells)):
         for i in range(w):
             row = j * w + i
-            power += dot(get3(cuts.cells[j], FORCE, w, i), motion_vector(motion, VELOCITY, row))
-            power += dot(get3(cuts.cells[j], MOMENT, w, i), motion_vector(motion, RATE, row))
+            power += dot(get3(cuts.cells[j], CutOffset.FORCE, w, i), motion_vector(motion, MotionOffset.VELOCITY, row))
+            power += dot(
+                get3(cuts.cells[j], CutOffset.MOMENT, w, i), motion_vector(motion, MotionOffset.ANGULAR_VELOCITY, row)
+            )
     return power

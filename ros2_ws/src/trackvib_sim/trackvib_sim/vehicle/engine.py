@@ -8,20 +8,17 @@ counted from where the run-up begins, says all.
 """
 
 from dataclasses import dataclass
-from math import pi
 from typing import NamedTuple
 
 import numpy as np
 
-from ..rui.compiled import kernel
-from ..rui.cuts import apply_force, apply_wrench
-from ..rui.kinematics import point_place, rotation
-from ..rui.spatial import load3, rotate, scale
+from ..numerics.compiled import kernel
+from ..numerics.spatial import load3, rotate, scale
+from ..numerics.units import RPM
+from ..rui.sweeps.articulated import apply_force, apply_wrench
+from ..rui.sweeps.kinematics import point_place, rotation
 
 IMPOSED_ORDER = 2.0
-
-
-RPM = 2.0 * pi / 60.0  # rad/s
 
 
 @dataclass(frozen=True)
@@ -48,7 +45,7 @@ class Engine(NamedTuple):
     imposed_amplitude: float  # m; zero where forces excite
 
 
-def engine(vehicle, rows, speed, imposed_displacement, run_up=None):
+def build_engine(vehicle, rows, speed, imposed_displacement, run_up=None):
     """Return the record for an engine speed [r/min] and one of the two kinds of excitation.
 
     A `RunUp` starts where the crank angle passes zero upwards, see `angle_before`; it needs a running engine.

@@ -4,11 +4,11 @@ import numpy as np
 from scipy.optimize import root
 from scipy.spatial.transform import Rotation
 
-from ..rui.cells import columns
-from ..rui.compiled import kernel
-from ..rui.cuts import open_cuts
-from ..rui.kinematics import update_motion
-from ..rui.riccati import HINGE, LINEAR, RESPONSE, solve_accelerations
+from ..numerics.compiled import kernel
+from ..rui.sweeps.articulated import open_cuts
+from ..rui.sweeps.cells import columns
+from ..rui.sweeps.kinematics import update_motion
+from ..rui.sweeps.riccati import ResponseOffset, solve_accelerations
 from .coil import settle_coils
 from .hinge_springs import add_hinge_springs
 from .mr_mounts import add_mounts
@@ -75,6 +75,6 @@ def static_equilibrium(system, current):
 
 def accelerations(system, work):
     """Return linear and angular acceleration (3,) of the hull and those of the hinges (rows,)."""
-    found = columns(work.response, LINEAR, RESPONSE)
+    found = columns(work.response, ResponseOffset.LINEAR, ResponseOffset.SIZE)
     hull = found[system.tree.row[0]]
-    return hull[:3] + system.tree.gravity, hull[3:6], found[:, HINGE]
+    return hull[:3] + system.tree.gravity, hull[3:6], found[:, ResponseOffset.HINGE]

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..rui.compiled import kernel
+from ..numerics.compiled import kernel
 
 
 class HingeSprings(NamedTuple):
@@ -15,7 +15,7 @@ class HingeSprings(NamedTuple):
     damping: np.ndarray  # (m,) N m s/rad or N s/m
 
 
-def hinge_springs(vehicle, rows):
+def build_hinge_springs(vehicle, rows):
     """Return the record for the vehicle; `rows` maps body names to rows of the tree."""
     springs = [
         (rows[name], section.stiffness, section.damping)

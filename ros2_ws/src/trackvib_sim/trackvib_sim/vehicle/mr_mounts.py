@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..rui.compiled import kernel
-from ..rui.cuts import apply_force
-from ..rui.kinematics import body_axes, point_place, point_velocity, rotation
-from ..rui.spatial import load3, rotate, scale, store3, subtract, vector
+from ..numerics.compiled import kernel
+from ..numerics.spatial import load3, rotate, scale, store3, subtract, vector
+from ..rui.sweeps.articulated import apply_force
+from ..rui.sweeps.kinematics import body_axes, point_place, point_velocity, rotation
 
 KN_PER_MM = 1e6  # N/m
 
@@ -52,7 +52,7 @@ def new_mount_sample():
     return MountSample(*(np.zeros(shape) for shape in shapes))
 
 
-def mr_mounts(vehicle, rows):
+def build_mr_mounts(vehicle, rows):
     """Return the record for the vehicle; both ends lie at one place when every hinge is at zero."""
     m = vehicle.mr_mounts
     x, y, z = m.place

@@ -5,20 +5,20 @@ from pydantic import model_validator
 
 from .quantities import choice, scalar, vector, vectors
 from .running_gear_parameters import (
-    Ground,
-    HullWheels,
-    Rims,
-    RoadWheels,
-    ShockAbsorbers,
-    SwingArms,
-    Teeth,
-    Tensioners,
-    Tracks,
+    GroundParameters,
+    HullWheelsParameters,
+    RimsParameters,
+    RoadWheelsParameters,
+    ShockAbsorbersParameters,
+    SwingArmsParameters,
+    TeethParameters,
+    TensionersParameters,
+    TracksParameters,
 )
-from .sections import Gain, Mass, Place, Range, Section, Solid
+from .sections import Gain, Mass, Place, Range, RigidBodyParameters, Section
 
 
-class RotaryHinged(Solid):
+class RevoluteBodyParameters(RigidBodyParameters):
     """A body on a revolute hinge with a rotary spring and damper."""
 
     place: Place
@@ -26,15 +26,15 @@ class RotaryHinged(Solid):
     damping: Gain("N m s/rad")
 
 
-class Sliding(Solid):
-    """A body on a slide with a spring and damper."""
+class PrismaticBodyParameters(RigidBodyParameters):
+    """A body on a prismatic hinge with a spring and damper."""
 
     place: Place
     stiffness: Gain("N/m")
     damping: Gain("N s/m")
 
 
-class MrMounts(Section):
+class MrMountsParameters(Section):
     """The pair of magnetorheological mounts: measured fits, their valid range, the other axes as ratios."""
 
     place: Place
@@ -56,7 +56,7 @@ class MrMounts(Section):
         return self
 
 
-class Coil(Section):
+class CoilParameters(Section):
     """Driver and coil of one mount."""
 
     model: choice("lag", "current_loop")
@@ -81,7 +81,7 @@ class Coil(Section):
         return self
 
 
-class Engine(Section):
+class EngineParameters(Section):
     """Excitation by engine order: force and moment amplitudes at rated speed."""
 
     rated_speed: scalar("r/min", gt=0.0)
@@ -103,7 +103,7 @@ class Engine(Section):
         return self
 
 
-class Driver(Section):
+class DriverParameters(Section):
     """Keeps speed and lane."""
 
     speed_gain: Gain("N s/m")
@@ -117,28 +117,28 @@ class Driver(Section):
 class Vehicle(Section):
     """The whole file."""
 
-    hull: Solid
-    turret: RotaryHinged
-    gun_mount: RotaryHinged
-    recoil_part: Sliding
-    powertrain: RotaryHinged
-    mr_mounts: MrMounts
-    coil: Coil
-    engine: Engine
-    swing_arms: SwingArms
-    shock_absorbers: ShockAbsorbers
-    road_wheels: RoadWheels
-    tyres: Rims
-    sprockets: HullWheels
-    sprocket_teeth: Teeth
-    carrier_rollers: HullWheels
-    roller_rims: Rims
-    idlers: HullWheels
-    idler_rims: Rims
-    tensioners: Tensioners
-    tracks: Tracks
-    ground: Ground
-    driver: Driver
+    hull: RigidBodyParameters
+    turret: RevoluteBodyParameters
+    gun_mount: RevoluteBodyParameters
+    recoil_part: PrismaticBodyParameters
+    powertrain: RevoluteBodyParameters
+    mr_mounts: MrMountsParameters
+    coil: CoilParameters
+    engine: EngineParameters
+    swing_arms: SwingArmsParameters
+    shock_absorbers: ShockAbsorbersParameters
+    road_wheels: RoadWheelsParameters
+    tyres: RimsParameters
+    sprockets: HullWheelsParameters
+    sprocket_teeth: TeethParameters
+    carrier_rollers: HullWheelsParameters
+    roller_rims: RimsParameters
+    idlers: HullWheelsParameters
+    idler_rims: RimsParameters
+    tensioners: TensionersParameters
+    tracks: TracksParameters
+    ground: GroundParameters
+    driver: DriverParameters
 
     @model_validator(mode="after")
     def _counts_of_the_paper(self):

@@ -6,11 +6,11 @@ from typing import Annotated
 from pydantic import Field, model_validator
 
 from .quantities import scalar, vector
-from .sections import Gain, Length, Mass, Section, Solid
+from .sections import Gain, Length, Mass, RigidBodyParameters, Section
 from .tracks.nodes import MOST_LINKS
 
 
-class SwingArms(Solid):
+class SwingArmsParameters(RigidBodyParameters):
     """Swing arms with torsion bars and bump stops; stiffness and damping as seen at the wheel."""
 
     length: Length
@@ -31,7 +31,7 @@ class SwingArms(Solid):
         return self
 
 
-class ShockAbsorbers(Section):
+class ShockAbsorbersParameters(Section):
     """Telescopic shock absorbers with blow-off, as seen at the wheel."""
 
     stations: Annotated[vector("-", ge=1.0, le=6.0), Field(max_length=6)]
@@ -46,7 +46,7 @@ class ShockAbsorbers(Section):
         return self
 
 
-class RoadWheels(Section):
+class RoadWheelsParameters(Section):
     """Road wheels as discs about their axle."""
 
     mass: Mass
@@ -56,7 +56,7 @@ class RoadWheels(Section):
     bearing_damping: Gain("N m s/rad")
 
 
-class HullWheels(Section):
+class HullWheelsParameters(Section):
     """Discs that turn in the hull: sprockets, carrier rollers, idlers."""
 
     mass: Mass
@@ -74,7 +74,7 @@ class HullWheels(Section):
         return self
 
 
-class Rims(Section):
+class RimsParameters(Section):
     """Where wheels, rollers or idlers touch the links: radial contact, friction, sideways guidance."""
 
     radial_stiffness: scalar("N/m", gt=0.0)
@@ -84,7 +84,7 @@ class Rims(Section):
     guide_damping: Gain("N s/m")
 
 
-class Teeth(Section):
+class TeethParameters(Section):
     """Contact of the sprockets' teeth with the pins."""
 
     teeth: scalar("-", ge=6.0, le=40.0, multiple_of=1.0)
@@ -99,7 +99,7 @@ class Teeth(Section):
     guide_damping: Gain("N s/m")
 
 
-class Tensioners(Section):
+class TensionersParameters(Section):
     """Slides that hold the idlers forwards."""
 
     stiffness: Gain("N/m")
@@ -107,7 +107,7 @@ class Tensioners(Section):
     travel: Length
 
 
-class Tracks(Section):
+class TracksParameters(Section):
     """Links and pins of both tracks."""
 
     links: scalar("-", ge=20.0, le=float(MOST_LINKS), multiple_of=1.0)
@@ -121,7 +121,7 @@ class Tracks(Section):
     pretension: Gain("N")
 
 
-class Ground(Section):
+class GroundParameters(Section):
     """The ground under one shoe."""
 
     stiffness: scalar("N/m", gt=0.0)

@@ -19,7 +19,7 @@ class Section(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
-class Solid(Section):
+class RigidBodyParameters(Section):
     """A rigid body: mass, centre from its origin, inertia about the centre (diagonal; products as matrix elements)."""
 
     mass: Mass

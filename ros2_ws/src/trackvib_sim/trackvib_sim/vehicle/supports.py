@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..rui.compiled import kernel
-from ..rui.cuts import apply_force
-from ..rui.kinematics import ORIGIN, VELOCITY, motion_vector, point_place, point_velocity
-from ..rui.spatial import load3
+from ..numerics.compiled import kernel
+from ..numerics.spatial import load3
+from ..rui.sweeps.articulated import apply_force
+from ..rui.sweeps.kinematics import MotionOffset, motion_vector, point_place, point_velocity
 from .body_tree import SIDES, STATIONS, wheel_name
 from .tracks.layout import end_runs, upper_weight
 
@@ -35,7 +35,7 @@ class Supports(NamedTuple):
     longitudinal: tuple  # of each sprocket
 
 
-def supports(vehicle, rows, travel):
+def build_supports(vehicle, rows, travel):
     """Return the record for the vehicle with a `travel` [m] of its tensioners."""
     v = vehicle
     shoes = (SHOES_UNDER_WHEEL * v.ground.stiffness, SHOES_UNDER_WHEEL * v.ground.damping)
@@ -65,7 +65,10 @@ def add_supports(supports, motion, cuts):
     """Add the springs' forces to wheels and hull of a vehicle that stands with its origin near x = y = 0."""
     for i in range(supports.wheel.size):
         wheel = supports.wheel[i]
-        hub, velocity = motion_vector(motion, ORIGIN, wheel), motion_vector(motion, VELOCITY, wheel)
+        hub, velocity = (
+            motion_vector(motion, MotionOffset.ORIGIN, wheel),
+            motion_vector(motion, MotionOffset.VELOCITY, wheel),
+        )
         side = 1.0 if 2 * i < supports.wheel.size else -1.0
         lateral = -supports.lateral[0] * (hub[1] - side * supports.brake[0, 1]) - supports.lateral[1] * velocity[1]
         vertical = supports.vertical[0] * (supports.radius - hub[2]) - supports.vertical[1] * velocity[2]
@@ -90,7 +93,7 @@ def add_supports(supports, motion, cuts):
 def _pull(supports, motion, cuts, end, place, wheel):
     x, z = supports.pull[end, 0], supports.pull[end, 1]
     apply_force(cuts, motion, supports.hull, place, (x, 0.0, z - 0.5 * supports.upper_weight))
-    apply_force(cuts, motion, wheel, motion_vector(motion, ORIGIN, wheel), (-x, 0.0, -z))
+    apply_force(cuts, motion, wheel, motion_vector(motion, MotionOffset.ORIGIN, wheel), (-x, 0.0, -z))
 
 
 def pulls(supports):

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..rui.compiled import kernel
+from ..numerics.compiled import kernel
 from .body_tree import SIDES, STATIONS, arm_name
 
 
@@ -26,7 +26,7 @@ class Suspension(NamedTuple):
     stop_damping: float  # N m s/rad
 
 
-def suspension(vehicle, rows, load):
+def build_suspension(vehicle, rows, load):
     """Return the record for the vehicle; `load` [N] is what the twelve bars carry in equal shares at angle zero."""
     arms, shocks = vehicle.swing_arms, vehicle.shock_absorbers
     angle = radians(arms.static_angle)

@@ -5,21 +5,21 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..rui.cuts import Cuts, new_cuts
-from ..rui.kinematics import Motion, new_motion
-from ..rui.riccati import Response, new_response
 from ..rui.state import TreeState
-from ..rui.tree import Tree, build_tree, new_rows, rest_lanes
-from .body_tree import GRAVITY, body_table
-from .coil import Coil, CoilState, coil, new_coil_state
-from .driver import Driver, driver
-from .engine import Engine, RunUp, engine
-from .hinge_springs import HingeSprings, hinge_springs
-from .mount_audit import MountAudit, new_audit
-from .mr_mounts import MrMounts, mr_mounts
-from .supports import Supports, supports
-from .suspension import Suspension, suspension
-from .tracks.tracks import Tracks, TrackState, TrackWork, new_track_state, new_track_work, tracks
+from ..rui.sweeps.articulated import Cuts, new_cuts
+from ..rui.sweeps.kinematics import Motion, new_motion
+from ..rui.sweeps.riccati import Response, new_response
+from ..rui.sweeps.tree import Tree, build_tree, new_rows, rest_lanes
+from .body_tree import GRAVITY, build_body_table
+from .coil import Coil, CoilState, build_coil, new_coil_state
+from .driver import Driver, build_driver
+from .engine import Engine, RunUp, build_engine
+from .hinge_springs import HingeSprings, build_hinge_springs
+from .mount_energy import MountEnergyState, new_mount_energy_state
+from .mr_mounts import MrMounts, build_mr_mounts
+from .supports import Supports, build_supports
+from .suspension import Suspension, build_suspension
+from .tracks.tracks import Tracks, TrackState, TrackWork, build_tracks, new_track_state, new_track_work
 
 SPRUNG = ("hull", "turret", "gun_mount", "recoil_part", "powertrain")
 
@@ -59,7 +59,7 @@ class State(NamedTuple):
     crank_angle: np.ndarray  # (1,) rad, see engine.turn_crank
     speed_integral: np.ndarray  # (1,) N
     flight: np.ndarray  # (1,) time since a shoe last touched the ground, s
-    audit: MountAudit
+    mount_energy: MountEnergyState
 
 
 class Work(NamedTuple):
@@ -82,23 +82,23 @@ def build_system(vehicle, operation, dt):
     ValueError
         The coils' delay is no whole number of steps.
     """
-    table = body_table(vehicle)
+    table = build_body_table(vehicle)
     tree = build_tree(table, gravity=(0.0, 0.0, -GRAVITY))
     rows = body_rows(vehicle, tree)
     mass = {body.name: body.mass for body in table}
-    running_tracks = tracks(vehicle, rows)
-    standing = supports(vehicle, rows, running_tracks.tensioner.fitted)
+    running_tracks = build_tracks(vehicle, rows)
+    standing = build_supports(vehicle, rows, running_tracks.tensioner.fitted)
     pull = 2.0 * (standing.upper_weight - standing.pull[:, 1].sum())
     load = sum(mass[name] for name in SPRUNG) * GRAVITY + pull
     return System(
         dt=dt,
         tree=tree,
-        springs=hinge_springs(vehicle, rows),
-        suspension=suspension(vehicle, rows, load),
-        mounts=mr_mounts(vehicle, rows),
-        coil=coil(vehicle, dt),
-        engine=engine(vehicle, rows, operation.engine_speed, operation.imposed_displacement, operation.run_up),
-        driver=driver(vehicle, rows, operation.speed),
+        springs=build_hinge_springs(vehicle, rows),
+        suspension=build_suspension(vehicle, rows, load),
+        mounts=build_mr_mounts(vehicle, rows),
+        coil=build_coil(vehicle, dt),
+        engine=build_engine(vehicle, rows, operation.engine_speed, operation.imposed_displacement, operation.run_up),
+        driver=build_driver(vehicle, rows, operation.speed),
         supports=standing,
         tracks=running_tracks,
     )
@@ -106,7 +106,7 @@ def build_system(vehicle, operation, dt):
 
 def body_rows(vehicle, tree):
     """Return the rows in the tree of all bodies of a vehicle, by name."""
-    return {body.name: row for body, row in zip(body_table(vehicle), tree.row.tolist(), strict=True)}
+    return {body.name: row for body, row in zip(build_body_table(vehicle), tree.row.tolist(), strict=True)}
 
 
 def new_state(system):
@@ -118,7 +118,7 @@ def new_state(system):
         crank_angle=np.zeros(1),
         speed_integral=np.zeros(1),
         flight=np.zeros(1),
-        audit=new_audit(),
+        mount_energy=new_mount_energy_state(),
     )
 
 

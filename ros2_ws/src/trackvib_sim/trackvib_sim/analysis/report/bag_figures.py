@@ -1,10 +1,10 @@
-"""The figures about one bag: a function each, from its `Excerpt`."""
+"""The figures about one bag: a function each, from its `ReportData`."""
 
 import numpy as np
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 
-from ..bag_numbers import SIDES
+from ..numbers import SIDES
 from ..summary import AXES, SENSORS
 from .figure_style import (
     AXIS_COLOURS,
@@ -23,22 +23,22 @@ LONG = 30  # bins, from which levels along the bag tell more than the histories
 _DENSITY = ((0.0, "rgba(128,128,128,0.2)"), (1.0, "rgba(128,128,128,0.95)"))
 
 
-def histories(excerpt):
+def histories(report_data):
     """Specific force of both sensors along three axes, below each other."""
     figure = make_subplots(rows=3, cols=1, shared_xaxes=True, vertical_spacing=0.03)
     for row, axis in enumerate(AXES, start=1):
         for sensor in SENSORS:
-            points = excerpt.accelerations[sensor][axis]
+            points = report_data.accelerations[sensor][axis]
             options = {"legendgroup": sensor, "showlegend": row == 1, "opacity": 0.85}
             figure.add_trace(line(points, sensor, SENSOR_COLOURS[sensor], width=0.8, **options), row=row, col=1)
         figure.update_yaxes(title_text=f"{AXIS_NAMES[axis]}, m/s²", row=row, col=1)
     figure.update_xaxes(title_text="time, s", row=3, col=1)
-    return settling(styled(figure, 640), excerpt.analysis)
+    return settling(styled(figure, 640), report_data.analysis)
 
 
-def levels(excerpt):
+def levels(report_data):
     """RMS of the vertical and, if it is known, the speed in equal parts of the bag; None for a short bag."""
-    history = excerpt.analysis.history
+    history = report_data.analysis.history
     if len(history.time) < LONG:
         return None
     rows = 2 if np.isfinite(history.speed).any() else 1
@@ -52,28 +52,28 @@ def levels(excerpt):
         figure.add_trace(line((history.time, history.speed), "speed", "#808080"), row=2, col=1)
         figure.update_yaxes(title_text="speed, m/s", row=2, col=1)
     figure.update_xaxes(title_text="time, s", row=rows, col=1)
-    return settling(styled(figure, 420), excerpt.analysis)
+    return settling(styled(figure, 420), report_data.analysis)
 
 
-def spectra(excerpt):
+def spectra(report_data):
     """Power spectral densities of both sensors: a figure an axis."""
-    found = excerpt.analysis.spectra
+    found = report_data.analysis.spectra
     return [
         density(
             [
                 line((found.frequency[1:], found.psd[sensor][1:, column]), sensor, SENSOR_COLOURS[sensor])
                 for sensor in SENSORS
             ],
-            excerpt.analysis,
+            report_data.analysis,
             AXIS_NAMES[axis],
         )
         for column, axis in enumerate(AXES)
     ]
 
 
-def transmission(excerpt):
+def transmission(report_data):
     """Transmissibility from chassis to powertrain, and their coherence: a figure each."""
-    found = excerpt.analysis.spectra
+    found = report_data.analysis.spectra
 
     def traces(values):
         return [
@@ -82,14 +82,14 @@ def transmission(excerpt):
         ]
 
     return [
-        ratio(traces(found.transmissibility), excerpt.analysis, "Transmissibility"),
-        coherence(traces(found.coherence), excerpt.analysis, "Coherence"),
+        ratio(traces(found.transmissibility), report_data.analysis, "Transmissibility"),
+        coherence(traces(found.coherence), report_data.analysis, "Coherence"),
     ]
 
 
-def mount_loops(excerpt):
+def mount_loops(report_data):
     """Vertical force over deflection and over velocity: a figure a mount each; none without mount states."""
-    kinds = ((excerpt.deflection_loops, "deflection, mm"), (excerpt.velocity_loops, "velocity, m/s"))
+    kinds = ((report_data.deflection_loops, "deflection, mm"), (report_data.velocity_loops, "velocity, m/s"))
     return [_loop(loops[side], side, unit) for loops, unit in kinds for side in SIDES if side in loops]
 
 
@@ -105,15 +105,15 @@ def _loop(loop, side, unit):
     return figure
 
 
-def currents(excerpt):
+def currents(report_data):
     """Demanded current and that in the coils; None if the bag has neither."""
-    if not excerpt.currents:
+    if not report_data.currents:
         return None
     figure = go.Figure()
-    for name, points in excerpt.currents.items():
+    for name, points in report_data.currents.items():
         demanded = name.endswith("demanded")
         colour, dash = SIDE_COLOURS[name.partition(",")[0]], "dot" if demanded else "solid"
         figure.add_trace(line(points, name, colour, dash=dash, opacity=0.6 if demanded else 1.0))
     figure.update_xaxes(title_text="time, s")
     figure.update_yaxes(title_text="current, A", rangemode="tozero")
-    return settling(styled(figure, 300), excerpt.analysis)
+    return settling(styled(figure, 300), report_data.analysis)

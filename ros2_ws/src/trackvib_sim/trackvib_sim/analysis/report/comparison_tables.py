@@ -2,7 +2,7 @@
 
 from math import isclose, isfinite, nan
 
-from ..bag_numbers import SIDES
+from ..numbers import SIDES
 from ..summary import AXES, SENSORS
 from .tables import MOUNT, UNITS, WORDS, Table, change, number
 

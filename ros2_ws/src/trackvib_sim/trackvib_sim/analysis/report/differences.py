@@ -5,15 +5,17 @@ from ...vehicle.vehicle_file import load_vehicle
 from .facts import NOT_TOLD
 
 
-def differing(excerpts):
+def differing(report_data_list):
     """Return rows (node, parameter, value in each bag) of what is not the same everywhere; vehicles come last."""
     told = [
-        {node.rpartition("/")[2]: values for node, values in parameters(excerpt.provenance).items()}
-        for excerpt in excerpts
+        {node.rpartition("/")[2]: values for node, values in parameters(report_data.provenance).items()}
+        for report_data in report_data_list
     ]
     keys = sorted({(node, name) for each in told for node, values in each.items() for name in values})
     rows = [(node, name, *(each.get(node, {}).get(name, NOT_TOLD) for each in told)) for node, name in keys]
-    return [row for row in rows if len(set(row[2:])) > 1] + _of_vehicles([excerpt.vehicle for excerpt in excerpts])
+    return [row for row in rows if len(set(row[2:])) > 1] + _of_vehicles(
+        [report_data.vehicle for report_data in report_data_list]
+    )
 
 
 def _of_vehicles(texts):

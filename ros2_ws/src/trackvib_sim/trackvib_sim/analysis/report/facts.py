@@ -9,13 +9,13 @@ from ...bags.provenance import parameters_with
 NOT_TOLD = "not told"
 
 
-def facts(excerpt):
+def facts(report_data):
     """Return what was run as pairs of words; without speeds that cannot be had, as the notes say."""
-    found = excerpt.analysis
+    found = report_data.analysis
     words = {
-        "road": _road(excerpt) or NOT_TOLD,
-        "control law": _told(excerpt, "law").get("law", NOT_TOLD),
-        "speed": _speed(excerpt),
+        "road": _road(report_data) or NOT_TOLD,
+        "control law": _told(report_data, "law").get("law", NOT_TOLD),
+        "speed": _speed(report_data),
         "engine": "" if isnan(found.engine_speed) else f"{found.engine_speed:.5g} r/min",
         "length": f"{found.duration:.6g} s; {found.measured:.6g} s count, after {found.settle:.3g} s of settling",
         "sensors": f"{found.rate:.6g} Hz; RMS values from {found.band[0]:g} to {found.band[1]:g} Hz",
@@ -24,9 +24,9 @@ def facts(excerpt):
     return [(name, told) for name, told in words.items() if told]
 
 
-def headline(excerpt):
+def headline(report_data):
     """Return the run in one line, by the bag's name where it tells nothing."""
-    found, road, law = excerpt.analysis, _told(excerpt, "road_class"), _told(excerpt, "law")
+    found, road, law = report_data.analysis, _told(report_data, "road_class"), _told(report_data, "law")
     words = [f"class {road['road_class']}"] if road else []
     words += [] if isnan(found.speed) else [f"{found.speed:.3g} m/s"]
     words += [f"law {law['law']}"] if law else []
@@ -34,17 +34,17 @@ def headline(excerpt):
     return ", ".join([*(words or names([found.bag])), f"{found.duration:.6g} s"])
 
 
-def _told(excerpt, parameter):
-    return parameters_with(excerpt.provenance, parameter)[1]
+def _told(report_data, parameter):
+    return parameters_with(report_data.provenance, parameter)[1]
 
 
-def _road(excerpt):
-    told = _told(excerpt, "road_class")
+def _road(report_data):
+    told = _told(report_data, "road_class")
     return ", ".join(f"{word} {told[key]}" for word, key in (("class", "road_class"), ("seed", "seed")) if key in told)
 
 
-def _speed(excerpt):
-    found, simulator = excerpt.analysis, _told(excerpt, "engine_speed")
+def _speed(report_data):
+    found, simulator = report_data.analysis, _told(report_data, "engine_speed")
     had = f"{found.speed:.3g} m/s, standard deviation {found.speed_deviation:.2g} m/s"
     words = [] if isnan(found.speed) else [had]
     words += [f"wanted {simulator['speed']} m/s"] if "speed" in simulator else []

@@ -13,12 +13,12 @@ from . import facts, tables
 from .sections import of_one, of_several, tiles
 
 
-def write_report(excerpts, path):
+def write_report(report_data_list, path):
     """Write the report on one bag, or the comparison of several, to a new HTML file.
 
     Parameters
     ----------
-    excerpts : list of Excerpt
+    report_data_list : list of ReportData
     path : path
 
     Raises
@@ -28,15 +28,15 @@ def write_report(excerpts, path):
     OSError
         It cannot be written; nothing is left of it.
     """
-    names = facts.names([excerpt.analysis.bag for excerpt in excerpts])
-    single = len(excerpts) == 1
-    sections = of_one(excerpts[0]) if single else of_several(excerpts, names)
+    names = facts.names([report_data.analysis.bag for report_data in report_data_list])
+    single = len(report_data_list) == 1
+    sections = of_one(report_data_list[0]) if single else of_several(report_data_list, names)
     figures = {}
     placed = [section._replace(figures=[_place(figure, figures) for figure in section.figures]) for section in sections]
     text = _environment().get_template("page.html.j2").render(
-        title=facts.headline(excerpts[0]) if single else f"{len(excerpts)} runs side by side",
-        runs=[_run(name, excerpt) for name, excerpt in zip(names, excerpts, strict=True)],
-        tiles=tiles(excerpts[0].analysis) if single else [],
+        title=facts.headline(report_data_list[0]) if single else f"{len(report_data_list)} runs side by side",
+        runs=[_run(name, report_data) for name, report_data in zip(names, report_data_list, strict=True)],
+        tiles=tiles(report_data_list[0].analysis) if single else [],
         sections=placed,
         figures=figures,
         plotly=Markup(get_plotlyjs()),
@@ -58,17 +58,17 @@ def _environment():
     return environment
 
 
-def _run(name, excerpt):
-    analysis = excerpt.analysis
+def _run(name, report_data):
+    analysis = report_data.analysis
     return {
         "name": name,
-        "facts": facts.facts(excerpt),
+        "facts": facts.facts(report_data),
         "notes": analysis.notes,
         "worries": tables.worries(analysis),
         "sound": tables.sound(analysis),
-        "provenance": excerpt.provenance,
+        "provenance": report_data.provenance,
         "messages": analysis.messages,
-        "vehicle": excerpt.vehicle,
+        "vehicle": report_data.vehicle,
         "gaps": tables.gaps(analysis),
         "loop": tables.loop(analysis),
     }

@@ -26,9 +26,9 @@ class Section(NamedTuple):
     columns: int = 1
 
 
-def of_one(excerpt):
+def of_one(report_data):
     """Return the `Section`s about one bag."""
-    analysis = excerpt.analysis
+    analysis = report_data.analysis
     sections = [
         Section(
             "Numbers",
@@ -40,18 +40,18 @@ def of_one(excerpt):
         Section(
             "Histories",
             _about_histories([analysis], "settling"),
-            [bag_figures.histories(excerpt), bag_figures.levels(excerpt)],
+            [bag_figures.histories(report_data), bag_figures.levels(report_data)],
             [],
         ),
-        Section("Spectra", f"{_WELCH}.", bag_figures.spectra(excerpt), [], 3),
-        Section("From chassis to powertrain", "", bag_figures.transmission(excerpt), [], 2),
+        Section("Spectra", f"{_WELCH}.", bag_figures.spectra(report_data), [], 3),
+        Section("From chassis to powertrain", "", bag_figures.transmission(report_data), [], 2),
         Section(
             "Link passing and engine orders", "RMS in m/s² in a band about each line.", [], [tables.lines(analysis)]
         ),
         Section(
             "Spectrograms",
             _LEVEL,
-            spectrogram_figures.of_sensors(excerpt),
+            spectrogram_figures.of_sensors(report_data),
             [],
             2,
         ),
@@ -59,20 +59,20 @@ def of_one(excerpt):
             "Mounts",
             "Vertical, in the hull's axes. Grey: where the mount was, darker where longer. Line: the second about its "
             "greatest travel.",
-            bag_figures.mount_loops(excerpt),
+            bag_figures.mount_loops(report_data),
             [tables.mounts(analysis)],
             2,
         ),
-        Section("Current", "", [bag_figures.currents(excerpt)], []),
+        Section("Current", "", [bag_figures.currents(report_data)], []),
         Section("Stamps", _STAMPS, [], [tables.timing(analysis, "stamps of")]),
     ]
     return _filled(sections)
 
 
-def of_several(excerpts, names):
+def of_several(report_data_list, names):
     """Return the `Section`s that set bags side by side, by their names."""
-    analyses = [excerpt.analysis for excerpt in excerpts]
-    settings = tables.Table(("node", "parameter", *names), differing(excerpts), 2 + len(names))
+    analyses = [report_data.analysis for report_data in report_data_list]
+    settings = tables.Table(("node", "parameter", *names), differing(report_data_list), 2 + len(names))
     sections = [
         Section(
             "What differs between the runs", "Parameters of the nodes, entries of the vehicle files.", [], [settings]
@@ -80,11 +80,13 @@ def of_several(excerpts, names):
         Section(
             "Numbers",
             f"In brackets the difference to {names[0]}. {_WEIGHTED}",
-            [comparison_figures.rms_bars(excerpts, names)],
+            [comparison_figures.rms_bars(report_data_list, names)],
             [*comparison_tables.accelerations(analyses, names), *comparison_tables.mounts(analyses, names)],
         ),
-        Section("Spectra", f"{_WELCH}; both of {names[0]}.", comparison_figures.spectra(excerpts, names), [], 3),
-        Section("From chassis to powertrain", "", comparison_figures.transmission(excerpts, names), [], 3),
+        Section(
+            "Spectra", f"{_WELCH}; both of {names[0]}.", comparison_figures.spectra(report_data_list, names), [], 3
+        ),
+        Section("From chassis to powertrain", "", comparison_figures.transmission(report_data_list, names), [], 3),
         Section(
             "Link passing and engine orders",
             f"RMS in m/s² in a band about each line. In brackets the difference to {names[0]}.",
@@ -94,24 +96,24 @@ def of_several(excerpts, names):
         Section(
             "Spectrograms",
             f"Powertrain, vertical z. {_LEVEL}",
-            spectrogram_figures.of_powertrains(excerpts, names),
+            spectrogram_figures.of_powertrains(report_data_list, names),
             [],
             2,
         ),
         Section(
             "Histories",
             _about_histories(analyses, f"settling of {names[0]}"),
-            comparison_figures.histories(excerpts, names),
+            comparison_figures.histories(report_data_list, names),
             [],
         ),
         Section(
             "Mounts",
             "Vertical, in the hull's axes: the second about each mount's greatest travel.",
-            comparison_figures.mount_loops(excerpts, names),
+            comparison_figures.mount_loops(report_data_list, names),
             [],
             2,
         ),
-        Section("Current", "", comparison_figures.currents(excerpts, names), []),
+        Section("Current", "", comparison_figures.currents(report_data_list, names), []),
         Section(
             "Stamps",
             _STAMPS,

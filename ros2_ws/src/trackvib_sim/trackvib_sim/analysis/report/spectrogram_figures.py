@@ -9,16 +9,19 @@ from .figure_style import AXIS_NAMES, plain, styled
 RANGE = 50.0  # dB below the greatest level of all that are told apart
 
 
-def of_sensors(excerpt):
+def of_sensors(report_data):
     """Vertical power spectral density over time of one bag: a figure a sensor."""
-    found = excerpt.spectrograms
+    found = report_data.spectrograms
     return _figures([(f"{sensor.capitalize()}, {AXIS_NAMES['z']}", found[sensor]) for sensor in SENSORS])
 
 
-def of_powertrains(excerpts, names):
+def of_powertrains(report_data_list, names):
     """The same of the powertrain in several bags: a figure a bag."""
     return _figures(
-        [(plain(name), excerpt.spectrograms["powertrain"]) for excerpt, name in zip(excerpts, names, strict=True)]
+        [
+            (plain(name), report_data.spectrograms["powertrain"])
+            for report_data, name in zip(report_data_list, names, strict=True)
+        ]
     )
 
 

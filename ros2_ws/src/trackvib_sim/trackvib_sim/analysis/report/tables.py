@@ -4,7 +4,7 @@ from dataclasses import fields
 from math import isfinite
 from typing import NamedTuple
 
-from ..bag_numbers import AxisNumbers
+from ..numbers import AxisNumbers
 from ..summary import AXES, SENSORS
 
 WORDS = {

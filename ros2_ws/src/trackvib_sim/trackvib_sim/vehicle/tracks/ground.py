@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...rui.compiled import kernel
-from .nodes import GROUND, LOW, RISE, SAMPLE, SHEAR, STRIDE, VELOCITY
+from ...numerics.compiled import kernel
+from .nodes import STRIDE, NodeOffset, NodeWorkOffset
 
 LEAST = 1e-9  # N, against division by zero where a shoe is not pulled at all
 
@@ -24,7 +24,7 @@ class Ground(NamedTuple):
     friction: float
 
 
-def ground(vehicle):
+def build_ground(vehicle):
     """Return the record for the vehicle."""
     g = vehicle.ground
     return Ground(g.stiffness, g.damping, g.shear_stiffness, g.shear_damping, g.friction)
@@ -51,13 +51,13 @@ def add_ground(ground, nodes, heights, first, spacing, begin, end, work, dt):
     # from here on the first node is number 0, so that indices are seen to be positive and loops become vectors
     nodes, work, count = nodes[begin:], work[begin:], end - begin
     for i in range(count):
-        work[SAMPLE * STRIDE + i] = np.floor(nodes[i] / spacing)
+        work[NodeWorkOffset.SAMPLE * STRIDE + i] = np.floor(nodes[i] / spacing)
     last = len(heights) - 2
     for i in range(count):
-        k = min(max(int(work[SAMPLE * STRIDE + i]) - first, 0), last)
-        work[LOW * STRIDE + i] = heights[k]
-        work[RISE * STRIDE + i] = heights[k + 1] - heights[k]
-    heat, stored, released, touching = 0.0, 0.0, 0.0, 0.0
+        k = min(max(int(work[NodeWorkOffset.SAMPLE * STRIDE + i]) - first, 0), last)
+        work[NodeWorkOffset.LOW * STRIDE + i] = heights[k]
+        work[NodeWorkOffset.RISE * STRIDE + i] = heights[k + 1] - heights[k]
+    dissipation, stored, released, touching = 0.0, 0.0, 0.0, 0.0
     k_n, c_n, k_s, c_s, mu = (
         ground.stiffness,
         ground.damping,
@@ -66,18 +66,20 @@ def add_ground(ground, nodes, heights, first, spacing, begin, end, work, dt):
         ground.friction,
     )
     for i in range(count):
-        low, rise = work[LOW * STRIDE + i], work[RISE * STRIDE + i]
+        low, rise = work[NodeWorkOffset.LOW * STRIDE + i], work[NodeWorkOffset.RISE * STRIDE + i]
         slope = rise / spacing
         cosine = 1.0 / np.sqrt(1.0 + slope * slope)
         sine = slope * cosine
-        depth = (low + (nodes[i] / spacing - work[SAMPLE * STRIDE + i]) * rise - nodes[2 * STRIDE + i]) * cosine
-        vx, vy = nodes[VELOCITY * STRIDE + i], nodes[(VELOCITY + 1) * STRIDE + i]
-        vz = nodes[(VELOCITY + 2) * STRIDE + i]
+        depth = (
+            low + (nodes[i] / spacing - work[NodeWorkOffset.SAMPLE * STRIDE + i]) * rise - nodes[2 * STRIDE + i]
+        ) * cosine
+        vx, vy = nodes[NodeOffset.VELOCITY * STRIDE + i], nodes[(NodeOffset.VELOCITY + 1) * STRIDE + i]
+        vz = nodes[(NodeOffset.VELOCITY + 2) * STRIDE + i]
         up, ahead = cosine * vz - sine * vx, cosine * vx + sine * vz
         on = 1.0 if depth > 0.0 else 0.0
         spring = on * k_n * depth
         normal = on * max(spring - c_n * up, 0.0)
-        shear_x, shear_y = nodes[SHEAR * STRIDE + i], nodes[(SHEAR + 1) * STRIDE + i]
+        shear_x, shear_y = nodes[NodeOffset.SHEAR * STRIDE + i], nodes[(NodeOffset.SHEAR + 1) * STRIDE + i]
         before = shear_x * shear_x + shear_y * shear_y
         pull_x = k_s * (shear_x + dt * ahead) + c_s * ahead
         pull_y = k_s * (shear_y + dt * vy) + c_s * vy
@@ -85,14 +87,14 @@ def add_ground(ground, nodes, heights, first, spacing, begin, end, work, dt):
         pull_x, pull_y = cut * pull_x, cut * pull_y
         shear_x = on * (pull_x - c_s * ahead) / k_s
         shear_y = on * (pull_y - c_s * vy) / k_s
-        nodes[SHEAR * STRIDE + i] = shear_x
-        nodes[(SHEAR + 1) * STRIDE + i] = shear_y
-        work[GROUND * STRIDE + i] = -sine * normal - cosine * pull_x
-        work[(GROUND + 1) * STRIDE + i] = -pull_y
-        work[(GROUND + 2) * STRIDE + i] = cosine * normal - sine * pull_x
+        nodes[NodeOffset.SHEAR * STRIDE + i] = shear_x
+        nodes[(NodeOffset.SHEAR + 1) * STRIDE + i] = shear_y
+        work[NodeWorkOffset.GROUND * STRIDE + i] = -sine * normal - cosine * pull_x
+        work[(NodeWorkOffset.GROUND + 1) * STRIDE + i] = -pull_y
+        work[(NodeWorkOffset.GROUND + 2) * STRIDE + i] = cosine * normal - sine * pull_x
         after = shear_x * shear_x + shear_y * shear_y
-        heat += up * (spring - normal) + pull_x * ahead + pull_y * vy
+        dissipation += up * (spring - normal) + pull_x * ahead + pull_y * vy
         stored += 0.5 * (spring * depth + k_s * after)
         released += before - after
         touching += on
-    return heat + 0.5 * k_s * released / dt, stored, touching
+    return dissipation + 0.5 * k_s * released / dt, stored, touching

@@ -4,15 +4,15 @@ from math import pi
 
 import numpy as np
 
-from ..body_tree import GRAVITY, body_table
-from .layout import lay_track, sink
+from ..body_tree import GRAVITY, build_body_table
+from .layout import assemble_track, sink
 from .nodes import STRIDE
 from .sprockets import pitch_radius
 
 DRAG = 0.06  # of the weight, rolling resistance that the driver expects
 
 
-def lay_tracks(vehicle, system, state, speed, phase):
+def assemble_tracks(vehicle, system, state, speed, phase):
     """Lay both tracks round the running gear of a vehicle on level ground at x = y = 0, and set all rolling at a speed.
 
     The right track lies `phase` pitches further along its way than the left one. Tension, rotation of the wheels and
@@ -23,13 +23,13 @@ def lay_tracks(vehicle, system, state, speed, phase):
     state.tree.position[0] = (0.0, 0.0, height)
     state.tree.velocity[0] = (speed, 0.0, 0.0)
     if speed > 0.0:
-        state.speed_integral[0] = DRAG * sum(body.mass for body in body_table(vehicle)) * GRAVITY
+        state.speed_integral[0] = DRAG * sum(body.mass for body in build_body_table(vehicle)) * GRAVITY
     state.tree.hinge_rate[tracks.wheels.row] = speed / tracks.wheels.radius
     state.tree.hinge_rate[tracks.sprockets.row] = speed / radius
     state.tracks.tensioner.travel[:] = travel
     sprocket = np.array([vehicle.sprockets.x[0], vehicle.sprockets.z[0]])
     for side, y in enumerate((vehicle.sprockets.y, -vehicle.sprockets.y)):
-        place, direction = lay_track(vehicle, travel, phase if side else 0.0)
+        place, direction = assemble_track(vehicle, travel, phase if side else 0.0)
         node = state.tracks.nodes[side].reshape(-1, STRIDE)[:, 1 : n + 1]
         node[0], node[1], node[2] = place[:, 0], y, place[:, 1] + height
         # against the order of the chain, which lies still on the ground

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.spatial import ConvexHull
 
-from ..body_tree import GRAVITY, SIDES, STATIONS, body_table
+from ..body_tree import GRAVITY, SIDES, STATIONS, build_body_table
 from .sprockets import pitch_radius
 
 _CORNERS = 2000  # of the polygons that stand for circles; they are 1e-6 of the radius too small
@@ -81,7 +81,7 @@ def _cut(vehicle, travel):
     return line, np.flatnonzero(above[:-1] != above[1:])
 
 
-def lay_track(vehicle, travel, phase):
+def assemble_track(vehicle, travel, phase):
     """Return places (n, 2) of the pins in the order of the chain and the line's directions (n, 2) there.
 
     The first pin lies `phase` pitches ahead of the rearmost road wheel's lowest point.
@@ -98,7 +98,7 @@ def lay_track(vehicle, travel, phase):
 
 def sink(vehicle):
     """Return how far the road wheels' rubber gives under an equal share of the weight of all bodies [m]."""
-    weight = sum(body.mass for body in body_table(vehicle)) * GRAVITY
+    weight = sum(body.mass for body in build_body_table(vehicle)) * GRAVITY
     return weight / (len(SIDES) * STATIONS * vehicle.tyres.radial_stiffness)
 
 

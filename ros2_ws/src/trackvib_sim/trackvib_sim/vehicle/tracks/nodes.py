@@ -10,37 +10,45 @@ therefore knows that quantities do not overlap and makes vector instructions of 
 number of cache lines, because quantities an even number apart would evict each other from the cache.
 """
 
+from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
 
-from ...rui.cells import new_cells
-from ...rui.compiled import inlined, kernel
-from ...rui.kinematics import ORIGIN, motion_vector, rotation
+from ...numerics.compiled import inlined, kernel
+from ...rui.sweeps.cells import new_cells
+from ...rui.sweeps.kinematics import MotionOffset, motion_vector, rotation
 
 STRIDE = 200
 MOST_LINKS = STRIDE - 2
 
-# quantities of the state, global axes
-PLACE = 0  # m
-VELOCITY = 3  # m/s
-SHEAR = 6  # of the ground under the shoe, along the road and to the left, m
-NODE_STATE = 8
-# quantities of the work, hull axes but for GROUND
-NEAR = 0  # place from the hull's origin, m
-SPEED = 3  # velocity, not relative to the hull, m/s
-CONTACT = 6  # force of wheels and teeth on the node, N
-GROUND = 9  # force of the ground, global axes, N
-DIRECTION = 12  # of link i, unit vector
-TURNING = 15  # angular velocity of link i, rad/s
-TENSION = 18  # of link i, N
-SHORTNESS = 19  # 1 / length of link i, 1/m
-PIN_MOMENT = 20  # of link i on link i - 1, N m
-LINK_FORCE = 23  # of link i on node i, N
-SAMPLE = 26  # number of the road's sample behind the node
-LOW = 27  # its height, m
-RISE = 28  # from it to the next, m
-NODE_WORK = 29
+
+class NodeOffset(IntEnum):
+    """Quantities of a node's state, global axes."""
+
+    PLACE = 0  # m
+    VELOCITY = 3  # m/s
+    SHEAR = 6  # of the ground under the shoe, along the road and to the left, m
+    SIZE = 8
+
+
+class NodeWorkOffset(IntEnum):
+    """Quantities of a node's working room, hull axes but for GROUND."""
+
+    NEAR = 0  # place from the hull's origin, m
+    SPEED = 3  # velocity, not relative to the hull, m/s
+    CONTACT = 6  # force of wheels and teeth on the node, N
+    GROUND = 9  # force of the ground, global axes, N
+    DIRECTION = 12  # of link i, unit vector
+    TURNING = 15  # angular velocity of link i, rad/s
+    TENSION = 18  # of link i, N
+    SHORTNESS = 19  # 1 / length of link i, 1/m
+    PIN_MOMENT = 20  # of link i on link i - 1, N m
+    LINK_FORCE = 23  # of link i on node i, N
+    SAMPLE = 26  # number of the road's sample behind the node
+    LOW = 27  # its height, m
+    RISE = 28  # from it to the next, m
+    SIZE = 29
 
 
 class Chain(NamedTuple):
@@ -57,7 +65,7 @@ class Chain(NamedTuple):
     pin_damping: float  # N m s/rad
 
 
-def chain(vehicle, rows):
+def build_chain(vehicle, rows):
     """Return the record for the vehicle."""
     t = vehicle.tracks
     return Chain(
@@ -75,12 +83,12 @@ def chain(vehicle, rows):
 
 def new_nodes():
     """Return the state of both tracks, (2, NODE_STATE STRIDE)."""
-    return new_cells(2, NODE_STATE * STRIDE)
+    return new_cells(2, NodeOffset.SIZE * STRIDE)
 
 
 def new_node_work():
     """Return room for the intermediate results of both tracks, (2, NODE_WORK STRIDE)."""
-    return new_cells(2, NODE_WORK * STRIDE)
+    return new_cells(2, NodeWorkOffset.SIZE * STRIDE)
 
 
 @inlined
@@ -96,7 +104,7 @@ def see_from_hull(chain, nodes, motion, work):
     """Express places and velocities of one track's nodes in hull axes, and clear the forces on them."""
     n = chain.links
     r = rotation(motion, chain.hull)
-    o = motion_vector(motion, ORIGIN, chain.hull)
+    o = motion_vector(motion, MotionOffset.ORIGIN, chain.hull)
     for i in range(1, n + 1):
         x, y, z = nodes[i] - o[0], nodes[STRIDE + i] - o[1], nodes[2 * STRIDE + i] - o[2]
         work[i] = r[0] * x + r[3] * y + r[6] * z
@@ -106,9 +114,9 @@ def see_from_hull(chain, nodes, motion, work):
         work[3 * STRIDE + i] = r[0] * x + r[3] * y + r[6] * z
         work[4 * STRIDE + i] = r[1] * x + r[4] * y + r[7] * z
         work[5 * STRIDE + i] = r[2] * x + r[5] * y + r[8] * z
-        for q in range(CONTACT, GROUND + 3):
+        for q in range(NodeWorkOffset.CONTACT, NodeWorkOffset.GROUND + 3):
             work[q * STRIDE + i] = 0.0
-    close_chain(work, NEAR, 6, n)
+    close_chain(work, NodeWorkOffset.NEAR, 6, n)
 
 
 @kernel
@@ -120,7 +128,7 @@ def add_links(chain, work):
     moments reach the nodes as couples, so that forces and, but for twist, moments are in balance.
     """
     n = chain.links
-    heat, stored = 0.0, 0.0
+    dissipation, stored = 0.0, 0.0
     for i in range(1, n + 1):
         x = work[i + 1] - work[i]
         y = work[STRIDE + i + 1] - work[STRIDE + i]
@@ -134,50 +142,54 @@ def add_links(chain, work):
         x, y, z = x * short, y * short, z * short
         rate = x * vx + y * vy + z * vz
         stretch = length - chain.free_length
-        work[DIRECTION * STRIDE + i] = x
-        work[(DIRECTION + 1) * STRIDE + i] = y
-        work[(DIRECTION + 2) * STRIDE + i] = z
-        work[TURNING * STRIDE + i] = (y * vz - z * vy) * short
-        work[(TURNING + 1) * STRIDE + i] = (z * vx - x * vz) * short
-        work[(TURNING + 2) * STRIDE + i] = (x * vy - y * vx) * short
-        work[TENSION * STRIDE + i] = chain.stiffness * stretch + chain.damping * rate
-        work[SHORTNESS * STRIDE + i] = short
-        heat += chain.damping * rate * rate
+        work[NodeWorkOffset.DIRECTION * STRIDE + i] = x
+        work[(NodeWorkOffset.DIRECTION + 1) * STRIDE + i] = y
+        work[(NodeWorkOffset.DIRECTION + 2) * STRIDE + i] = z
+        work[NodeWorkOffset.TURNING * STRIDE + i] = (y * vz - z * vy) * short
+        work[(NodeWorkOffset.TURNING + 1) * STRIDE + i] = (z * vx - x * vz) * short
+        work[(NodeWorkOffset.TURNING + 2) * STRIDE + i] = (x * vy - y * vx) * short
+        work[NodeWorkOffset.TENSION * STRIDE + i] = chain.stiffness * stretch + chain.damping * rate
+        work[NodeWorkOffset.SHORTNESS * STRIDE + i] = short
+        dissipation += chain.damping * rate * rate
         stored += 0.5 * chain.stiffness * stretch * stretch
-    close_chain(work, DIRECTION, 6, n)
+    close_chain(work, NodeWorkOffset.DIRECTION, 6, n)
     for i in range(1, n + 1):
         ax, ay, az = (
-            work[DIRECTION * STRIDE + i - 1],
-            work[(DIRECTION + 1) * STRIDE + i - 1],
-            work[(DIRECTION + 2) * STRIDE + i - 1],
+            work[NodeWorkOffset.DIRECTION * STRIDE + i - 1],
+            work[(NodeWorkOffset.DIRECTION + 1) * STRIDE + i - 1],
+            work[(NodeWorkOffset.DIRECTION + 2) * STRIDE + i - 1],
         )
         bx, by, bz = (
-            work[DIRECTION * STRIDE + i],
-            work[(DIRECTION + 1) * STRIDE + i],
-            work[(DIRECTION + 2) * STRIDE + i],
+            work[NodeWorkOffset.DIRECTION * STRIDE + i],
+            work[(NodeWorkOffset.DIRECTION + 1) * STRIDE + i],
+            work[(NodeWorkOffset.DIRECTION + 2) * STRIDE + i],
         )
         tx, ty, tz = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
-        wx = work[TURNING * STRIDE + i] - work[TURNING * STRIDE + i - 1]
-        wy = work[(TURNING + 1) * STRIDE + i] - work[(TURNING + 1) * STRIDE + i - 1]
-        wz = work[(TURNING + 2) * STRIDE + i] - work[(TURNING + 2) * STRIDE + i - 1]
+        wx = work[NodeWorkOffset.TURNING * STRIDE + i] - work[NodeWorkOffset.TURNING * STRIDE + i - 1]
+        wy = work[(NodeWorkOffset.TURNING + 1) * STRIDE + i] - work[(NodeWorkOffset.TURNING + 1) * STRIDE + i - 1]
+        wz = work[(NodeWorkOffset.TURNING + 2) * STRIDE + i] - work[(NodeWorkOffset.TURNING + 2) * STRIDE + i - 1]
         # pins lie along the hull's y axis
-        work[PIN_MOMENT * STRIDE + i] = chain.sideways_stiffness * tx + chain.pin_damping * wx
-        work[(PIN_MOMENT + 1) * STRIDE + i] = chain.pin_stiffness * ty + chain.pin_damping * wy
-        work[(PIN_MOMENT + 2) * STRIDE + i] = chain.sideways_stiffness * tz + chain.pin_damping * wz
-        heat += chain.pin_damping * (wx * wx + wy * wy + wz * wz)
+        work[NodeWorkOffset.PIN_MOMENT * STRIDE + i] = chain.sideways_stiffness * tx + chain.pin_damping * wx
+        work[(NodeWorkOffset.PIN_MOMENT + 1) * STRIDE + i] = chain.pin_stiffness * ty + chain.pin_damping * wy
+        work[(NodeWorkOffset.PIN_MOMENT + 2) * STRIDE + i] = chain.sideways_stiffness * tz + chain.pin_damping * wz
+        dissipation += chain.pin_damping * (wx * wx + wy * wy + wz * wz)
         stored += 0.5 * (chain.sideways_stiffness * (tx * tx + tz * tz) + chain.pin_stiffness * ty * ty)
-    close_chain(work, PIN_MOMENT, 3, n)
+    close_chain(work, NodeWorkOffset.PIN_MOMENT, 3, n)
     for i in range(1, n + 1):
-        mx = work[PIN_MOMENT * STRIDE + i + 1] - work[PIN_MOMENT * STRIDE + i]
-        my = work[(PIN_MOMENT + 1) * STRIDE + i + 1] - work[(PIN_MOMENT + 1) * STRIDE + i]
-        mz = work[(PIN_MOMENT + 2) * STRIDE + i + 1] - work[(PIN_MOMENT + 2) * STRIDE + i]
-        x, y, z = work[DIRECTION * STRIDE + i], work[(DIRECTION + 1) * STRIDE + i], work[(DIRECTION + 2) * STRIDE + i]
-        tension, short = work[TENSION * STRIDE + i], work[SHORTNESS * STRIDE + i]
-        work[LINK_FORCE * STRIDE + i] = tension * x - short * (my * z - mz * y)
-        work[(LINK_FORCE + 1) * STRIDE + i] = tension * y - short * (mz * x - mx * z)
-        work[(LINK_FORCE + 2) * STRIDE + i] = tension * z - short * (mx * y - my * x)
-    close_chain(work, LINK_FORCE, 3, n)
-    return heat, stored
+        mx = work[NodeWorkOffset.PIN_MOMENT * STRIDE + i + 1] - work[NodeWorkOffset.PIN_MOMENT * STRIDE + i]
+        my = work[(NodeWorkOffset.PIN_MOMENT + 1) * STRIDE + i + 1] - work[(NodeWorkOffset.PIN_MOMENT + 1) * STRIDE + i]
+        mz = work[(NodeWorkOffset.PIN_MOMENT + 2) * STRIDE + i + 1] - work[(NodeWorkOffset.PIN_MOMENT + 2) * STRIDE + i]
+        x, y, z = (
+            work[NodeWorkOffset.DIRECTION * STRIDE + i],
+            work[(NodeWorkOffset.DIRECTION + 1) * STRIDE + i],
+            work[(NodeWorkOffset.DIRECTION + 2) * STRIDE + i],
+        )
+        tension, short = work[NodeWorkOffset.TENSION * STRIDE + i], work[NodeWorkOffset.SHORTNESS * STRIDE + i]
+        work[NodeWorkOffset.LINK_FORCE * STRIDE + i] = tension * x - short * (my * z - mz * y)
+        work[(NodeWorkOffset.LINK_FORCE + 1) * STRIDE + i] = tension * y - short * (mz * x - mx * z)
+        work[(NodeWorkOffset.LINK_FORCE + 2) * STRIDE + i] = tension * z - short * (mx * y - my * x)
+    close_chain(work, NodeWorkOffset.LINK_FORCE, 3, n)
+    return dissipation, stored
 
 
 @kernel
@@ -188,21 +200,21 @@ def move_nodes(chain, nodes, motion, gravity, work, dt):
     fall_x, fall_y, fall_z = dt * gravity[0], dt * gravity[1], dt * gravity[2]
     for i in range(1, chain.links + 1):
         behind = i - 1
-        x = work[LINK_FORCE * STRIDE + i] - work[LINK_FORCE * STRIDE + behind]
-        y = work[(LINK_FORCE + 1) * STRIDE + i] - work[(LINK_FORCE + 1) * STRIDE + behind]
-        z = work[(LINK_FORCE + 2) * STRIDE + i] - work[(LINK_FORCE + 2) * STRIDE + behind]
-        x += work[CONTACT * STRIDE + i]
-        y += work[(CONTACT + 1) * STRIDE + i]
-        z += work[(CONTACT + 2) * STRIDE + i]
-        forward = r[0] * x + r[1] * y + r[2] * z + work[GROUND * STRIDE + i]
-        left = r[3] * x + r[4] * y + r[5] * z + work[(GROUND + 1) * STRIDE + i]
-        up = r[6] * x + r[7] * y + r[8] * z + work[(GROUND + 2) * STRIDE + i]
-        vx = nodes[VELOCITY * STRIDE + i] + step * forward + fall_x
-        vy = nodes[(VELOCITY + 1) * STRIDE + i] + step * left + fall_y
-        vz = nodes[(VELOCITY + 2) * STRIDE + i] + step * up + fall_z
-        nodes[VELOCITY * STRIDE + i] = vx
-        nodes[(VELOCITY + 1) * STRIDE + i] = vy
-        nodes[(VELOCITY + 2) * STRIDE + i] = vz
+        x = work[NodeWorkOffset.LINK_FORCE * STRIDE + i] - work[NodeWorkOffset.LINK_FORCE * STRIDE + behind]
+        y = work[(NodeWorkOffset.LINK_FORCE + 1) * STRIDE + i] - work[(NodeWorkOffset.LINK_FORCE + 1) * STRIDE + behind]
+        z = work[(NodeWorkOffset.LINK_FORCE + 2) * STRIDE + i] - work[(NodeWorkOffset.LINK_FORCE + 2) * STRIDE + behind]
+        x += work[NodeWorkOffset.CONTACT * STRIDE + i]
+        y += work[(NodeWorkOffset.CONTACT + 1) * STRIDE + i]
+        z += work[(NodeWorkOffset.CONTACT + 2) * STRIDE + i]
+        forward = r[0] * x + r[1] * y + r[2] * z + work[NodeWorkOffset.GROUND * STRIDE + i]
+        left = r[3] * x + r[4] * y + r[5] * z + work[(NodeWorkOffset.GROUND + 1) * STRIDE + i]
+        up = r[6] * x + r[7] * y + r[8] * z + work[(NodeWorkOffset.GROUND + 2) * STRIDE + i]
+        vx = nodes[NodeOffset.VELOCITY * STRIDE + i] + step * forward + fall_x
+        vy = nodes[(NodeOffset.VELOCITY + 1) * STRIDE + i] + step * left + fall_y
+        vz = nodes[(NodeOffset.VELOCITY + 2) * STRIDE + i] + step * up + fall_z
+        nodes[NodeOffset.VELOCITY * STRIDE + i] = vx
+        nodes[(NodeOffset.VELOCITY + 1) * STRIDE + i] = vy
+        nodes[(NodeOffset.VELOCITY + 2) * STRIDE + i] = vz
         nodes[i] += dt * vx
         nodes[STRIDE + i] += dt * vy
         nodes[2 * STRIDE + i] += dt * vz

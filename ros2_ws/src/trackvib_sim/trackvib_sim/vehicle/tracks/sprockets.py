@@ -12,10 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...rui.compiled import inlined, kernel
+from ...numerics.compiled import inlined, kernel
 from ..body_tree import SIDES, SPROCKET
-from .nodes import CONTACT, STRIDE
-from .wheels import HEAT, MOST_MOVES, STORED, add_reaction
+from .nodes import STRIDE, NodeWorkOffset
+from .wheels import MOST_MOVES, WheelLoadOffset, add_reaction
 
 
 class Sprockets(NamedTuple):
@@ -42,7 +42,7 @@ def pitch_radius(vehicle):
     return vehicle.tracks.pitch * (1.0 + s.pitch_excess) / (2.0 * sin(pi / s.teeth))
 
 
-def sprockets(vehicle, rows):
+def build_sprockets(vehicle, rows):
     """Return the record for the vehicle."""
     s, angle = vehicle.sprocket_teeth, radians(vehicle.sprocket_teeth.flank_angle)
     return Sprockets(
@@ -102,8 +102,8 @@ def add_sprocket(sprockets, hub, angle, rear, n, work, load):
             seat = s.pitch_radius - distance
             if seat > 0.0:
                 radial = max(0.0, s.stiffness * seat - s.damping * outwards)
-                load[HEAT] += outwards * (s.stiffness * seat - radial)
-                load[STORED] += 0.5 * s.stiffness * seat * seat
+                load[WheelLoadOffset.DISSIPATION] += outwards * (s.stiffness * seat - radial)
+                load[WheelLoadOffset.STORED] += 0.5 * s.stiffness * seat * seat
             depth, across, outward = _in_tooth(s, abs(off) * distance, distance)
             if depth > 0.0:
                 # the way along the circumference grows with distance as well
@@ -112,17 +112,17 @@ def add_sprocket(sprockets, hub, angle, rear, n, work, load):
                 push = max(0.0, s.stiffness * depth + s.damping * closing)
                 tangential = -across * push
                 radial -= outward * push
-                load[HEAT] += closing * (push - s.stiffness * depth)
-                load[STORED] += 0.5 * s.stiffness * depth * depth
+                load[WheelLoadOffset.DISSIPATION] += closing * (push - s.stiffness * depth)
+                load[WheelLoadOffset.STORED] += 0.5 * s.stiffness * depth * depth
             if radial != 0.0 or tangential != 0.0:
                 sideways = work[STRIDE + i] - hub.y
                 vy = work[4 * STRIDE + i] - hub.vy - hub.yaw * dx + hub.roll * dz
                 guide = s.guide_stiffness * sideways + s.guide_damping * vy
-                load[HEAT] += s.guide_damping * vy * vy
-                load[STORED] += 0.5 * s.guide_stiffness * sideways * sideways
+                load[WheelLoadOffset.DISSIPATION] += s.guide_damping * vy * vy
+                load[WheelLoadOffset.STORED] += 0.5 * s.guide_stiffness * sideways * sideways
                 force = (radial * rx + tangential * rz, -guide, radial * rz - tangential * rx)
                 for axis in range(3):
-                    work[(CONTACT + axis) * STRIDE + i] += force[axis]
+                    work[(NodeWorkOffset.CONTACT + axis) * STRIDE + i] += force[axis]
                 add_reaction(load, (dx, sideways, dz), force)
         i = i + 1 if i < n else 1
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...rui.compiled import kernel
+from ...numerics.compiled import kernel
 
 
 class Tensioner(NamedTuple):
@@ -28,14 +28,14 @@ class TensionerState(NamedTuple):
     rate: np.ndarray  # (2,) m/s
 
 
-def tensioner(vehicle, travel, load):
+def build_tensioner(vehicle, travel, load):
     """Return the record for the vehicle, in balance at a travel [m] with the track's pull `load` [N] rearwards."""
     t = vehicle.tensioners
     return Tensioner(t.stiffness, t.damping, vehicle.idlers.mass, load + t.stiffness * travel, travel)
 
 
 @kernel
-def move_slide(tensioner, state, side, push, dt):
+def move_tensioner(tensioner, state, side, push, dt):
     """Advance one slide by dt under the track's `push` [N] on the idler along x (negative: rearwards)."""
     force = tensioner.preload + push - tensioner.stiffness * state.travel[side] - tensioner.damping * state.rate[side]
     state.rate[side] += dt * force / tensioner.mass
@@ -43,7 +43,7 @@ def move_slide(tensioner, state, side, push, dt):
 
 
 @kernel
-def slide_energy(tensioner, state, side):
+def tensioner_energy(tensioner, state, side):
     """Return the power turned into heat [W] and the energy stored in spring and moving mass [J]."""
     travel, rate = state.travel[side], state.rate[side]
     stored = 0.5 * (tensioner.stiffness * travel * travel + tensioner.mass * rate * rate) - tensioner.preload * travel

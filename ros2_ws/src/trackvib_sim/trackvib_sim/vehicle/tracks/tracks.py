@@ -1,35 +1,33 @@
 """Both tracks with all that they touch: the records, one evaluation of their forces, one step."""
 
+from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
 
-from ...rui.compiled import kernel
-from ...rui.cuts import apply_wrench
-from ...rui.kinematics import ORIGIN, motion_vector, rotation
-from ...rui.spatial import rotate
-from .ground import Ground, add_ground, ground, road_height
+from ...numerics.compiled import kernel
+from ...numerics.spatial import rotate
+from ...rui.sweeps.articulated import apply_wrench
+from ...rui.sweeps.kinematics import MotionOffset, motion_vector, rotation
+from .ground import Ground, add_ground, build_ground, road_height
 from .layout import fit_idler, idler_load
-from .nodes import STRIDE, Chain, add_links, chain, move_nodes, new_node_work, new_nodes, see_from_hull
-from .sprockets import Sprockets, add_sprocket, find_rear, sprockets
-from .tensioner import Tensioner, TensionerState, move_slide, slide_energy, tensioner
-from .wheels import (
-    FORCE,
-    HEAT,
-    IDLERS,
-    LOAD,
-    ROAD_WHEELS,
-    STORED,
-    Wheels,
-    add_wheel,
-    find_link,
-    hub_of,
-    push_body,
-    wheels,
-)
+from .nodes import STRIDE, Chain, add_links, build_chain, move_nodes, new_node_work, new_nodes, see_from_hull
+from .sprockets import Sprockets, add_sprocket, build_sprockets, find_rear
+from .tensioner import Tensioner, TensionerState, build_tensioner, move_tensioner, tensioner_energy
+from .wheels import IDLERS, ROAD_WHEELS, WheelLoadOffset, Wheels, add_wheel, build_wheels, find_link, hub_of, push_body
 
-LINKS, GROUND, RIMS, TEETH, TENSIONERS = range(5)  # where energy goes
-SINKS = 5
+
+class TrackPart(IntEnum):
+    """Where energy is stored and dissipated in the tracks."""
+
+    LINKS = 0
+    GROUND = 1
+    RIMS = 2
+    TEETH = 3
+    TENSIONERS = 4
+
+
+TRACK_PARTS = len(TrackPart)
 MESHED = 0.75  # teeth by which the rearmost pin may be away from its gap; from half a tooth on it is over the next one
 
 
@@ -59,13 +57,13 @@ class TrackWork(NamedTuple):
     nodes: np.ndarray  # (2, NODE_WORK STRIDE)
     load: np.ndarray  # (LOAD,) of one wheel
     push: np.ndarray  # (2,) of the track on the idler along the hull's x axis, N
-    heat: np.ndarray  # (SINKS,) W
-    stored: np.ndarray  # (SINKS,) J
+    dissipation: np.ndarray  # (TRACK_PARTS,) W
+    stored: np.ndarray  # (TRACK_PARTS,) J
     touching: np.ndarray  # (1,) shoes on the ground
     away: np.ndarray  # (2,) teeth between the rearmost pin and the gap that it belongs to
 
 
-def tracks(vehicle, rows):
+def build_tracks(vehicle, rows):
     """Return the record for the vehicle.
 
     Raises
@@ -75,11 +73,11 @@ def tracks(vehicle, rows):
     """
     travel = fit_idler(vehicle)
     return Tracks(
-        chain(vehicle, rows),
-        ground(vehicle),
-        wheels(vehicle, rows),
-        sprockets(vehicle, rows),
-        tensioner(vehicle, travel, idler_load(vehicle, travel)),
+        build_chain(vehicle, rows),
+        build_ground(vehicle),
+        build_wheels(vehicle, rows),
+        build_sprockets(vehicle, rows),
+        build_tensioner(vehicle, travel, idler_load(vehicle, travel)),
     )
 
 
@@ -93,10 +91,10 @@ def new_track_work():
     """Return working room."""
     return TrackWork(
         nodes=new_node_work(),
-        load=np.zeros(LOAD),
+        load=np.zeros(WheelLoadOffset.SIZE),
         push=np.zeros(2),
-        heat=np.zeros(SINKS),
-        stored=np.zeros(SINKS),
+        dissipation=np.zeros(TRACK_PARTS),
+        stored=np.zeros(TRACK_PARTS),
         touching=np.zeros(1),
         away=np.zeros(2),
     )
@@ -108,15 +106,15 @@ def add_tracks(tracks, state, tree_state, road, motion, cuts, work, dt):
 
     The shear of the ground under the shoes is advanced by dt.
     """
-    work.heat[:] = 0.0
+    work.dissipation[:] = 0.0
     work.stored[:] = 0.0
     work.touching[0] = 0.0
     for side in range(2):
         nodes = work.nodes[side]
         see_from_hull(tracks.chain, state.nodes[side], motion, nodes)
-        heat, stored = add_links(tracks.chain, nodes)
-        work.heat[LINKS] += heat
-        work.stored[LINKS] += stored
+        dissipation, stored = add_links(tracks.chain, nodes)
+        work.dissipation[TrackPart.LINKS] += dissipation
+        work.stored[TrackPart.LINKS] += stored
         _add_wheels(tracks, state, side, motion, cuts, work)
         _add_sprocket(tracks, state, side, tree_state, motion, cuts, work)
         _add_ground(tracks, state, side, road, work, dt)
@@ -136,15 +134,15 @@ def _add_wheels(tracks, state, side, motion, cuts, work):
         load[:] = 0.0
         add_wheel(wheels, side, k, hub, link, n, work.nodes[side], load)
         push_body(cuts, motion, hull, row, load)
-        work.heat[RIMS] += load[HEAT]
-        work.stored[RIMS] += load[STORED]
+        work.dissipation[TrackPart.RIMS] += load[WheelLoadOffset.DISSIPATION]
+        work.stored[TrackPart.RIMS] += load[WheelLoadOffset.STORED]
         if run == IDLERS:
-            work.push[side] = load[FORCE]
-            heat, stored = slide_energy(tracks.tensioner, state.tensioner, side)
-            work.heat[TENSIONERS] += heat
-            work.stored[TENSIONERS] += stored
+            work.push[side] = load[WheelLoadOffset.FORCE]
+            dissipation, stored = tensioner_energy(tracks.tensioner, state.tensioner, side)
+            work.dissipation[TrackPart.TENSIONERS] += dissipation
+            work.stored[TrackPart.TENSIONERS] += stored
             # the rim's force acts at the shifted hub; the slide carries its moment about the idler's own place
-            moment = (0.0, -travel * load[FORCE + 2], travel * load[FORCE + 1])
+            moment = (0.0, -travel * load[WheelLoadOffset.FORCE + 2], travel * load[WheelLoadOffset.FORCE + 1])
             apply_wrench(cuts, hull, (0.0, 0.0, 0.0), rotate(rotation(motion, hull), moment))
 
 
@@ -162,8 +160,8 @@ def _add_sprocket(tracks, state, side, tree_state, motion, cuts, work):
     load[:] = 0.0
     add_sprocket(tracks.sprockets, hub, angle, rear, n, nodes, load)
     push_body(cuts, motion, hull, row, load)
-    work.heat[TEETH] += load[HEAT]
-    work.stored[TEETH] += load[STORED]
+    work.dissipation[TrackPart.TEETH] += load[WheelLoadOffset.DISSIPATION]
+    work.stored[TrackPart.TEETH] += load[WheelLoadOffset.STORED]
 
 
 @kernel
@@ -181,9 +179,11 @@ def _add_ground(tracks, state, side, road, work, dt):
 @kernel
 def _add_stretch(tracks, state, side, height, road, begin, end, work, dt):
     nodes, forces = state.nodes[side], work.nodes[side]
-    heat, stored, touching = add_ground(tracks.ground, nodes, height, road.first, road.spacing, begin, end, forces, dt)
-    work.heat[GROUND] += heat
-    work.stored[GROUND] += stored
+    dissipation, stored, touching = add_ground(
+        tracks.ground, nodes, height, road.first, road.spacing, begin, end, forces, dt
+    )
+    work.dissipation[TrackPart.GROUND] += dissipation
+    work.stored[TrackPart.GROUND] += stored
     work.touching[0] += touching
 
 
@@ -192,7 +192,7 @@ def move_tracks(tracks, state, motion, gravity, work, dt):
     """Advance nodes and tensioners by dt."""
     for side in range(2):
         move_nodes(tracks.chain, state.nodes[side], motion, gravity, work.nodes[side], dt)
-        move_slide(tracks.tensioner, state.tensioner, side, work.push[side], dt)
+        move_tensioner(tracks.tensioner, state.tensioner, side, work.push[side], dt)
 
 
 @kernel
@@ -201,7 +201,7 @@ def wheel_below_road(tracks, road, motion):
     for side in range(2):
         for k in range(tracks.wheels.row.shape[1]):
             if tracks.wheels.run[side, k] == ROAD_WHEELS:
-                hub = motion_vector(motion, ORIGIN, tracks.wheels.row[side, k])
+                hub = motion_vector(motion, MotionOffset.ORIGIN, tracks.wheels.row[side, k])
                 if hub[2] < road_height(road, side, hub[0]):
                     return True
     return False

@@ -6,16 +6,17 @@ without a step, and with it comes the polygon effect. The rim's rubber is a radi
 regularised by a small creep speed, turns the wheel with the track; guide horns hold the shoes sideways.
 """
 
+from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
 
-from ...rui.compiled import inlined, kernel
-from ...rui.cuts import apply_wrench
-from ...rui.kinematics import HINGE_AXIS, ORIGIN, RATE, VELOCITY, body_axes, motion_vector, rotation
-from ...rui.spatial import cross, dot, rotate, subtract, vector
+from ...numerics.compiled import inlined, kernel
+from ...numerics.spatial import cross, dot, rotate, subtract, vector
+from ...rui.sweeps.articulated import apply_wrench
+from ...rui.sweeps.kinematics import MotionOffset, body_axes, motion_vector, rotation
 from ..body_tree import IDLER, ROLLER, SIDES, STATIONS, wheel_name
-from .nodes import CONTACT, STRIDE
+from .nodes import STRIDE, NodeWorkOffset
 
 ROAD_WHEELS, ROLLERS, IDLERS = 1.0, -1.0, 0.0  # sign of x along the chain where the wheel touches it; 0: its front end
 CREEP = 0.25  # m/s, slip at which friction has 71 % of its limit; less is stiff against a shoe in steps of 1e-4 s
@@ -63,13 +64,17 @@ class Hub(NamedTuple):
     yaw: float
 
 
-# what a track does to a wheel, by place in an array: force [N] and moment about the hub [N m] in hull axes, then power
-# turned into heat [W] and the energy stored [J] in the contact
-FORCE, MOMENT, HEAT, STORED = 0, 3, 6, 7
-LOAD = 8
+class WheelLoadOffset(IntEnum):
+    """What a track does to a wheel, hull axes."""
+
+    FORCE = 0  # N
+    MOMENT = 3  # about the hub, N m
+    DISSIPATION = 6  # W
+    STORED = 7  # energy in the contact, J
+    SIZE = 8
 
 
-def wheels(vehicle, rows):
+def build_wheels(vehicle, rows):
     """Return the record for the vehicle."""
     v, pitch = vehicle, vehicle.tracks.pitch
     wheel = [[rows[wheel_name(side, station)] for station in range(STATIONS)] for side in SIDES]
@@ -101,10 +106,16 @@ def wheels(vehicle, rows):
 @inlined
 def hub_of(motion, hull, row, travel, rate):
     """Return the `Hub` of a wheel that is shifted along the hull's x axis by `travel` [m], at a `rate` [m/s]."""
-    place = body_axes(motion, hull, subtract(motion_vector(motion, ORIGIN, row), motion_vector(motion, ORIGIN, hull)))
-    velocity = body_axes(motion, hull, motion_vector(motion, VELOCITY, row))
-    turn = body_axes(motion, hull, motion_vector(motion, RATE, hull))
-    spin = dot(motion_vector(motion, RATE, row), motion_vector(motion, HINGE_AXIS, row))
+    place = body_axes(
+        motion,
+        hull,
+        subtract(motion_vector(motion, MotionOffset.ORIGIN, row), motion_vector(motion, MotionOffset.ORIGIN, hull)),
+    )
+    velocity = body_axes(motion, hull, motion_vector(motion, MotionOffset.VELOCITY, row))
+    turn = body_axes(motion, hull, motion_vector(motion, MotionOffset.ANGULAR_VELOCITY, hull))
+    spin = dot(
+        motion_vector(motion, MotionOffset.ANGULAR_VELOCITY, row), motion_vector(motion, MotionOffset.HINGE_AXIS, row)
+    )
     shifted = (velocity[0] + rate, velocity[1] + turn[2] * travel, velocity[2] - turn[1] * travel)
     return Hub(place[0] + travel, place[1], place[2], shifted[0], shifted[1], shifted[2], spin, turn[0], turn[2])
 
@@ -183,11 +194,15 @@ def _press(rim, hub, share, weight, i, j, work, load):
     guide = rim.guide_stiffness * sideways + on * rim.guide_damping * vy
     force = (weight * (normal * nx - drag * nz), -weight * guide, weight * (normal * nz + drag * nx))
     for axis in range(3):
-        work[(CONTACT + axis) * STRIDE + i] += rest * force[axis]
-        work[(CONTACT + axis) * STRIDE + j] += share * force[axis]
+        work[(NodeWorkOffset.CONTACT + axis) * STRIDE + i] += rest * force[axis]
+        work[(NodeWorkOffset.CONTACT + axis) * STRIDE + j] += share * force[axis]
     add_reaction(load, (dx, sideways, dz), force)
-    load[HEAT] += weight * (leaving * (rim.stiffness * depth - normal) + drag * slip + on * rim.guide_damping * vy * vy)
-    load[STORED] += weight * 0.5 * (rim.stiffness * depth * depth + rim.guide_stiffness * sideways * sideways)
+    load[WheelLoadOffset.DISSIPATION] += weight * (
+        leaving * (rim.stiffness * depth - normal) + drag * slip + on * rim.guide_damping * vy * vy
+    )
+    load[WheelLoadOffset.STORED] += (
+        weight * 0.5 * (rim.stiffness * depth * depth + rim.guide_stiffness * sideways * sideways)
+    )
 
 
 @inlined
@@ -195,12 +210,17 @@ def add_reaction(load, lever, force):
     """Add to `load` what a force [N] on a node does to the wheel, `lever` [m] being the node's place from the hub."""
     moment = cross(lever, force)
     for axis in range(3):
-        load[FORCE + axis] -= force[axis]
-        load[MOMENT + axis] -= moment[axis]
+        load[WheelLoadOffset.FORCE + axis] -= force[axis]
+        load[WheelLoadOffset.MOMENT + axis] -= moment[axis]
 
 
 @kernel
 def push_body(cuts, motion, hull, row, load):
     """Apply `load` to a body, about its own origin."""
     turn = rotation(motion, hull)
-    apply_wrench(cuts, row, rotate(turn, vector(load[FORCE:])), rotate(turn, vector(load[MOMENT:])))
+    apply_wrench(
+        cuts,
+        row,
+        rotate(turn, vector(load[WheelLoadOffset.FORCE :])),
+        rotate(turn, vector(load[WheelLoadOffset.MOMENT :])),
+    )

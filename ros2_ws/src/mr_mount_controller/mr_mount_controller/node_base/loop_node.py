@@ -1,0 +1,135 @@
+"""What every node of trackvib does alike: declared parameters, a bounded spin, a clean end on SIGINT and SIGTERM."""
+
+import signal
+import sys
+import time
+
+import rclpy
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
+from rclpy.experimental import EventsExecutor
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+
+from .parameters import ParameterError
+from .shared_memory import remove_unfinished_segments
+
+# rclpy declares these itself on every node
+_RCLPY_PARAMETERS = ("use_sim_time", "start_type_description_service", "qos_overrides")
+_TICK = 0.1  # s, after which a waiting node looks at its stop flag
+
+
+class NodeError(RuntimeError):
+    """What stops a node with a message for its user and a non-zero exit code."""
+
+
+class LoopNode(Node):
+    """A node with parameters from `Parameter` descriptions, driven by its own `run`."""
+
+    def __init__(self, name, parameters):
+        super().__init__(name)
+        self.settings = {parameter.name: self._declare(parameter) for parameter in parameters}
+        self._spin = None
+        self.stopping = lambda: False
+
+    def declare_more(self, parameters):
+        """Declare further parameters, which depend on those known first; returns their values by name."""
+        values = {parameter.name: self._declare(parameter) for parameter in parameters}
+        self.settings |= values
+        return values
+
+    def refuse_unknown_parameters(self):
+        """Raise `ParameterError` for a value given to a parameter that the node does not have."""
+        for name in self._parameter_overrides:  # rclpy has no public view of what was given but not declared
+            if not self.has_parameter(name) and not name.startswith(_RCLPY_PARAMETERS):
+                known = ", ".join(sorted(self.settings))
+                raise ParameterError(f"{self.get_name()}: there is no parameter '{name}'; known are {known}")
+
+    def run(self):
+        """Do the node's work until it is done or `self.stopping()`; by default answer callbacks."""
+        while not self.stopping():
+            self.spin_once(_TICK)
+
+    def close(self):
+        """Finish what must not be left half done; called once, whatever ended the node."""
+
+    def spin_once(self, timeout):
+        """Serve callbacks that wait; if none does, wait for one for at most `timeout` seconds."""
+        self._spin(timeout)
+
+    def spin_until(self, condition, timeout=None):
+        """Serve callbacks until `condition()`; returns whether it came true before a stop or the timeout [s]."""
+        end = None if timeout is None else time.monotonic() + timeout
+        while not condition():
+            left = _TICK if end is None else min(_TICK, end - time.monotonic())
+            if left <= 0.0 or self.stopping():
+                return condition()
+            self.spin_once(left)
+        return True
+
+    def prepare(self, spin, stopping):
+        """Hand in the executor's spin function and the stop flag."""
+        self._spin, self.stopping = spin, stopping
+
+    def _declare(self, parameter):
+        descriptor = ParameterDescriptor(
+            description=f"{parameter.description} [{parameter.unit}]" if parameter.unit else parameter.description,
+            additional_constraints=f"accepted is {parameter.accepted}",
+            read_only=True,
+        )
+        if parameter.low is not None:
+            if isinstance(parameter.default, int):
+                limits = IntegerRange(from_value=parameter.low, to_value=parameter.high, step=0)
+                descriptor.integer_range = [limits]
+            else:
+                limits = FloatingPointRange(from_value=parameter.low, to_value=parameter.high, step=0.0)
+                descriptor.floating_point_range = [limits]
+        try:
+            value = self.declare_parameter(parameter.name, parameter.default, descriptor).value
+        except (InvalidParameterTypeException, InvalidParameterValueException):
+            value = self._parameter_overrides[parameter.name].value
+        try:
+            return parameter.check(value)
+        except ParameterError as error:
+            raise ParameterError(f"{self.get_name()}: {error}") from None
+
+
+def start_ros(args=None):
+    """Start ROS 2 without signal handlers of its own, and without what killed processes left in its way."""
+    remove_unfinished_segments()
+    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+
+
+def run_node(make_node, args=None, companions=()):
+    """Make a node, run it until it ends or a signal asks it to, and return the process's exit code.
+
+    Further nodes, made by `companions`, share its process and executor: they answer callbacks while it waits. The
+    signals only set a flag, once; rclpy's own handlers end a node in the middle of whatever it does.
+    """
+    stop = []
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: stop.append(True))
+    nodes = []
+    try:
+        start_ros(args)
+        executor = EventsExecutor()
+        for make in (*companions, make_node):
+            nodes.append(make())
+            nodes[-1].refuse_unknown_parameters()
+            nodes[-1].prepare(lambda timeout: executor.spin_once(timeout_sec=timeout), lambda: bool(stop))
+            executor.add_node(nodes[-1])
+        try:
+            nodes[-1].run()
+        finally:
+            for node in reversed(nodes):
+                node.close()
+            executor.shutdown()
+    except (ParameterError, NodeError, RCLError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2 if isinstance(error, ParameterError) else 1
+    finally:
+        for node in nodes:
+            node.destroy_node()
+        rclpy.try_shutdown()
+    return 0

@@ -1,0 +1,67 @@
+"""What the simulator node makes of its parameters: one sentence where it cannot run."""
+
+import pytest
+import yaml
+from mr_mount_controller.node_base.parameters import ParameterError
+from trackvib_sim.data import default_vehicle_file
+from trackvib_sim.nodes.simulator_parameters import PARAMETERS, prepare
+
+pytestmark = pytest.mark.property
+
+
+@pytest.fixture
+def refusal(tmp_path):
+    """A function that returns with which message values are refused; `vehicle` changes items of the shipped file."""
+
+    def refuse(vehicle=(), **values):
+        content = yaml.safe_load(default_vehicle_file().read_text(encoding="utf-8"))
+        for (section, item), value in dict(vehicle).items():
+            content[section][item]["value"] = value
+        file = tmp_path / "my.yaml"
+        file.write_text(yaml.safe_dump(content), encoding="utf-8")
+        defaults = {parameter.name: parameter.default for parameter in PARAMETERS}
+        with pytest.raises(ParameterError) as refused:
+            prepare({**defaults, "vehicle_file": str(file), **values})
+        return str(refused.value)
+
+    return refuse
+
+
+def test_defaults_make_a_simulation(vehicle):
+    """The defaults are those of the shipped vehicle at 10 m/s."""
+    simulation, usable, text = prepare({parameter.name: parameter.default for parameter in PARAMETERS})
+    assert simulation.settings.operation.speed == 10.0 and not simulation.road_is_enough()
+    assert usable.tolist() == [0.7, 4.0]
+    assert text == default_vehicle_file().read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("vehicle", "words"),
+    [
+        ({("tracks", "links"): 130}, ("tracks.links x tracks.pitch is 14.950 m", "tensioners.travel of 0.1 m")),
+        ({("ground", "stiffness"): 1e3, ("ground", "damping"): 0.0}, ("cannot roll at 10 m/s", "vehicle file")),
+        ({("turret", "inertia"): [8500.0, 11000.0, 30000.0]}, ("body 5 (turret)", "sum of the other two")),
+        ({("coil", "delay"): 1.5e-4}, ("coil.delay is 0.00015 s", "whole number of physics steps of 0.0001 s")),
+        ({("hull", "mass"): -1.0}, ("'vehicle_file'", "hull.mass is -1.0", "greater than 0")),
+    ],
+)
+def test_impossible_vehicles_are_refused(refusal, vehicle, words):
+    """A vehicle whose tracks do not fit, that cannot roll, or that cannot be, is refused in one line."""
+    said = refusal(vehicle)
+    assert said.startswith("simulator: ") and len(said.splitlines()) == 1
+    for word in words:
+        assert word in said
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"engine_speed": 100.0}, ("'engine_speed' is 100.0", "0 or 450 to 2100 r/min")),
+        ({"control_rate": 999}, ("physics_rate 10000 Hz and control_rate 999 Hz clash",)),
+    ],
+)
+def test_values_that_do_not_fit_are_refused(refusal, values, words):
+    """A value that does not fit the vehicle or another value is refused with what is accepted."""
+    said = refusal(**values)
+    for word in ("simulator: ", *words):
+        assert word in said

@@ -1,0 +1,148 @@
+"""The vehicle file: the shipped one loads, and what is wrong in another is said in words."""
+
+import numpy as np
+import pytest
+import yaml
+from trackvib_sim.data import default_vehicle_file
+from trackvib_sim.vehicle.quantities import SOURCES
+from trackvib_sim.vehicle.vehicle_file import VehicleFileError, parse_vehicle, read_vehicle
+
+
+@pytest.fixture(scope="module")
+def content():
+    """The shipped file as text."""
+    return default_vehicle_file().read_text(encoding="utf-8")
+
+
+def refusal(text):
+    """The message with which a text is refused."""
+    with pytest.raises(VehicleFileError) as refused:
+        parse_vehicle(text, "my.yaml")
+    return str(refused.value)
+
+
+@pytest.mark.property
+def test_shipped_file_loads(content):
+    """The shipped file is accepted, comes back with its text, and its values are those written in it."""
+    vehicle, text = read_vehicle(default_vehicle_file())
+    assert text == content
+    for section, items in yaml.safe_load(content).items():
+        for name, quantity in items.items():
+            value, written = getattr(getattr(vehicle, section), name), quantity["value"]
+            assert value == written or np.array_equal(value, np.array(written, dtype=float))
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("a: &x [1, 2]\nb: *x", "my.yaml: not a YAML file: alias *x is not accepted, write it out"),
+        ("[" * 3000, "my.yaml: not a vehicle file: nested too deeply"),
+    ],
+)
+def test_texts_that_would_blow_up_are_refused(text, words):
+    """In one sentence, before anything has grown."""
+    assert refusal(text) == words
+
+
+@pytest.mark.literature
+def test_published_values_are_the_papers(vehicle):
+    """The fits, the rated load, the engine's speeds and its displacement are those printed in the paper."""
+    m, e = vehicle.mr_mounts, vehicle.engine
+    assert m.stiffness_fit == [0.0412, -0.581, 2.8317, 0.904]
+    assert m.damping_ratio_fit == [0.0121, -0.1567, 0.6526, -0.3573]
+    assert (m.static_load, m.carried_mass) == (9800.0, 1000.0)
+    assert (e.rated_speed, e.speed_range, e.imposed_amplitude) == (1650.0, [450.0, 2100.0], 2e-4)
+
+
+MASS = "mass: {value: 9000.0, unit: kg, source: assumed}"
+BAD = [
+    (MASS, "", ("turret.mass", "required")),
+    (MASS, MASS + "\n  colour: {value: 1.0, unit: m, source: assumed}", ("turret.colour", "1.0", "not permitted")),
+    (MASS, MASS.replace("kg", "t"), ("turret.mass", "unit is 't'", "must be 'kg'")),
+    (MASS, MASS.replace("assumed", "guessed"), ("turret.mass", "source is 'guessed'", ", ".join(SOURCES))),
+    (MASS, MASS.replace("9000.0", "-1.0"), ("turret.mass is -1.0", "greater than 0")),
+    (MASS, MASS.replace("9000.0", "0.0"), ("turret.mass is 0.0", "greater than 0")),
+    (MASS, MASS.replace("9000.0", ".nan"), ("turret.mass is nan", "finite")),
+    (MASS, MASS.replace("9000.0", ".inf"), ("turret.mass is inf", "finite")),
+    (MASS, MASS.replace("9000.0", "heavy"), ("turret.mass is 'heavy'", "number")),
+    (MASS, MASS.replace("9000.0", "true"), ("turret.mass", "value is True", "must be a number")),
+    (MASS, MASS.replace("9000.0", "[1.0]"), ("turret.mass is [1.0]", "number")),
+    (MASS, "mass: 9000.0", ("turret.mass", "must be written {value: ..., unit: kg, source: ...}")),
+    (MASS, MASS.replace("source", "origin"), ("turret.mass", "must be written", "source: ...")),
+    (MASS, MASS.replace("}", ", error: 5.0}"), ("turret.mass", "must be written", "a note may follow")),
+    ("centre: {value: [-0.15, 0.0, 0.35]", "centre: {value: [-0.15, 0.35]", ("turret.centre", "at least 3")),
+    ("centre: {value: [-0.15, 0.0, 0.35]", "centre: {value: [0, .nan, 0]", ("turret.centre.1 is nan", "finite")),
+    ("orders: {value: [2.0, 3.0, 6.0]", "orders: {value: [2.0, 3.0]", ("engine", "force has 3 rows", "each order")),
+    ("current_range: {value: [0.7, 4.0]", "current_range: {value: [4.0, 0.7]",
+     ("mr_mounts.current_range", "[4.0, 0.7]", "first must be below")),
+    ("current_limits: {value: [0.0, 5.0]", "current_limits: {value: [-1.0, 5.0]",
+     ("coil.current_limits.0 is -1.0", "greater than or equal to 0")),
+    ("model: {value: lag", "model: {value: fast", ("coil.model is 'fast'", "'lag' or 'current_loop'")),
+    ("voltage_limits: {value: [-24.0, 24.0]", "voltage_limits: {value: [-24.0, 6.0]",
+     ("coil: voltage_limits are [-24.0, 6.0] V", "must hold 0 to 10 V")),
+    ("bump_travel: {value: 0.26", "bump_travel: {value: 0.5",
+     ("swing_arms", "bump_travel is 0.5 m", "must be < 0.427")),
+    ("stations: {value: [1, 2, 6]", "stations: {value: [0, 2, 6]", ("shock_absorbers.stations.0", "equal to 1")),
+    ("stations: {value: [1, 2, 6]", "stations: {value: [1.5, 2, 6]", ("stations is [1.5", "whole numbers")),
+    ("links: {value: 120,", "links: {value: 120.5,", ("tracks.links is 120.5", "multiple of 1")),
+    ("links: {value: 120,", "links: {value: 500,", ("tracks.links is 500", "less than or equal to 198")),
+    ("teeth: {value: 14,", "teeth: {value: 3,", ("sprocket_teeth.teeth is 3", "greater than or equal to 6")),
+    ("x: {value: [-3.05]", "x: {value: [-3.05, 1.0]", ("sprockets", "2 places and z 1", "as many")),
+]  # fmt: skip
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(("good", "bad", "words"), BAD)
+def test_bad_items_are_named(content, good, bad, words):
+    """One bad item in an otherwise good file is refused with file, item, value or unit and what is accepted."""
+    assert content.count(good) == 1
+    message = refusal(content.replace(good, bad))
+    for word in ("my.yaml: ", *words):
+        assert word in message
+    assert len(message.splitlines()) == 1
+
+
+@pytest.mark.property
+def test_every_bad_item_is_named(content):
+    """Two bad items give two lines."""
+    text = content.replace("9000.0, unit: kg", "-1.0, unit: kg").replace('unit: "1/revolution"', "unit: Hz")
+    lines = refusal(text).splitlines()
+    assert len(lines) == 2
+    assert "turret.mass" in lines[0] and "engine.orders" in lines[1]
+
+
+@pytest.mark.property
+def test_counts_of_the_paper_are_kept(content):
+    """A vehicle with five carrier rollers a side is not the paper's and is refused."""
+    text = content.replace("[1.95, 0.65, -0.65, -1.95]", "[1.95, 0.65, 0.0, -0.65, -1.95]")
+    text = text.replace("[0.915, 0.925, 0.925, 0.915]", "[0.915, 0.925, 0.925, 0.925, 0.915]")
+    assert "carrier_rollers: 5 places a side, must be 4" in refusal(text)
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("text", [
+    "hull: [", "a: \x00", "a: !!python/object:x {}", "a: 2001-99-99", "a: b: c",
+    "a: !!bool x", "a: !!int ''", "a: !!timestamp abc",
+])  # fmt: skip
+def test_no_yaml_is_said_so(text):
+    """A text that YAML cannot read is refused as that."""
+    assert "my.yaml: not a YAML file: " in refusal(text)
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(("text", "value"), [("", "None"), ("text", "'text'"), ("[1, 2]", "[1, 2]")])
+def test_yaml_of_another_kind_is_said_so(text, value):
+    """YAML that is no table is refused with what it is and what is wanted."""
+    assert refusal(text) == f"my.yaml: the whole file is {value}: must be a section with items"
+
+
+@pytest.mark.property
+def test_unreadable_files_are_named(tmp_path):
+    """A path that is not there, a folder and a file that is no text are refused with their path."""
+    binary = tmp_path / "binary.yaml"
+    binary.write_bytes(b"\xff\xfe\x00mass")
+    for path in (tmp_path / "none.yaml", tmp_path, binary):
+        with pytest.raises(VehicleFileError, match="cannot be read") as refused:
+            read_vehicle(path)
+        assert repr(str(path)) in str(refused.value)

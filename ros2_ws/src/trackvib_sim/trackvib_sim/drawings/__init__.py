@@ -1,0 +1,1 @@
+"""Drawings of the vehicle to scale, of its tree and of its modes, and the table of its parameters."""

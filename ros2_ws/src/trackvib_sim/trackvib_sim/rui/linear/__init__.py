@@ -1,0 +1,1 @@
+"""Small motions about an equilibrium: natural frequencies, damped poles, frequency responses."""

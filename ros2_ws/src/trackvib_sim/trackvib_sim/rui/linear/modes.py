@@ -1,0 +1,242 @@
+"""Damped poles and modes of a tree about its equilibrium, and who moves in them.
+
+The undamped modes, all of them, serve as coordinates in which the poles are found at once, overdamped ones included;
+Newton steps, each a sweep of the transfer matrix method at the complex s itself, take the rounding out again.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .equilibrium import check_equilibrium
+from .natural_modes import mode_shapes, natural_values
+from .sweep import forced_motion, tips_to_root
+from .tree import centre_of_mass, move
+
+NEWTON_STEPS = 4
+SPLIT = 1e-6  # of the size of a pole, from where on an imaginary part is more than rounding
+DIRECTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
+
+
+@dataclass(frozen=True)
+class Mode:
+    """One damped mode, motion = Re(shape exp(pole t)).
+
+    A pair of complex poles is one mode. A real pole (overdamped, or an unstable way out) is a mode of its own with
+    damping ratio 1 (or -1).
+
+    Attributes
+    ----------
+    frequency : float
+        |pole| / 2 pi [Hz]; oscillation is slower by sqrt(1 - damping_ratio^2).
+    damping_ratio : float
+        -Re(pole) / |pole|; negative grows.
+    pole : complex
+        [1/s], imaginary part >= 0.
+    x : (n, 6) complex array
+        Displacement [m] and rotation [rad] of every body's origin, global axes.
+    coordinate : (n,) complex array
+        Of the hinges [rad or m]. Shapes are scaled so that sum x^H M x over all bodies is 1, and turned so that the
+        largest part of that sum is in phase with a real displacement.
+    energy_share : (n,) array
+        Every body's part of the kinetic energy; sums up to 1.
+    root_share : (6,) array
+        The root's part split up into three displacements of its centre of mass and three rotations; sums up to
+        energy_share[0].
+    hinge_share : (n,) array
+        What each hinge's coordinate brings into the kinetic energy (coordinate times its momentum), row 0 zero; can
+        be negative.
+    whole_share : (6,) array
+        The same of the motion of the whole tree with the root, at the common centre of mass; sums up with
+        hinge_share to 1 if there are no elastic hinges.
+    """
+
+    frequency: float
+    damping_ratio: float
+    pole: complex
+    x: np.ndarray
+    coordinate: np.ndarray
+    energy_share: np.ndarray
+    root_share: np.ndarray
+    hinge_share: np.ndarray
+    whole_share: np.ndarray
+
+    @property
+    def shape(self):
+        """(n, 7) complex: displacement, rotation and hinge coordinate of every body."""
+        return np.column_stack((self.x, self.coordinate))
+
+    @property
+    def overdamped(self):
+        """Whether the pole is real."""
+        return self.pole.imag == 0.0
+
+
+def natural_frequencies(model, highest_frequency):
+    """Return all undamped frequencies below a limit [Hz], ascending, each as often as it occurs.
+
+    Free motions are 0 but for rounding (about 1e-7 of the highest). An unstable motion exp(a t) comes out as -a / 2 pi.
+    """
+    values = natural_values(check_equilibrium(model), (2.0 * np.pi * highest_frequency) ** 2)
+    return np.sign(values) * np.sqrt(np.abs(values)) / (2.0 * np.pi)
+
+
+def modes(model, highest_frequency=np.inf, zero_below=1e-3):
+    """Return the damped modes of a tree about its equilibrium.
+
+    Parameters
+    ----------
+    model : LinearModel
+        In equilibrium (`find_equilibrium`).
+    highest_frequency : float
+        Modes with a larger |pole| / 2 pi [Hz] are left out.
+    zero_below : float
+        Modes below [Hz] are free motions and left out.
+
+    Returns
+    -------
+    list of Mode
+        Ascending frequency.
+
+    Raises
+    ------
+    ValueError
+        The model is not at rest.
+    """
+    tree = check_equilibrium(model)
+    dampers = [tree.damping, tree.hinge_damping] + [bushing.child_rate for bushing in tree.bushings.values()]
+    limits = 2.0 * np.pi * zero_below, 2.0 * np.pi * highest_frequency
+    if any(np.any(damper) for damper in dampers):
+        poles, x, coordinate = _damped(tree, limits)
+    else:
+        shapes = mode_shapes(tree, None if np.isinf(limits[1]) else limits[1] ** 2)
+        poles = np.sqrt((-shapes.omega_squared).astype(complex))  # imaginary part >= 0
+        kept = np.abs(poles) >= limits[0]
+        poles, x, coordinate = poles[kept], shapes.x[:, :, kept], shapes.coordinate[:, kept]
+        real = poles.imag == 0.0  # unstable: one way out, one way in
+        poles = np.concatenate((poles, -poles[real]))
+        x, coordinate = np.dstack((x, x[:, :, real])), np.hstack((coordinate, coordinate[:, real]))
+    order = np.lexsort((poles.real, np.round(np.abs(poles), 9)))
+    return [_mode(tree, poles[k], x[:, :, k], coordinate[:, k]) for k in order]
+
+
+def damping_loads(tree, x, coordinate):
+    """Return what all dampers put up against speeds x (..., n, 6, m), coordinate (..., n, m): C times that.
+
+    Wrench (..., n, 6, m) about every body's origin and axis load (..., n, m), signs of a load that drives the motion.
+    """
+    wrench, torque = tree.damping @ x, tree.hinge_damping[:, None] * coordinate
+    for row, bushing in tree.bushings.items():
+        parent, lever = tree.parent[row], move(tree.lever[row])
+        at_child = bushing.child_rate @ x[..., row, :, :] + bushing.parent_rate @ (lever @ x[..., parent, :, :])
+        wrench[..., row, :, :] += at_child
+        wrench[..., parent, :, :] -= lever.T @ (move(tree.offset[row]).T @ at_child)
+    return wrench, torque
+
+
+def _damped(tree, limits):
+    """Return poles (k,), x (n, 6, k), coordinate (n, k) with limits[0] <= |s| <= limits[1], Im s >= 0."""
+    basis = mode_shapes(tree)
+    count = len(basis.omega_squared)
+    wrench, torque = damping_loads(tree, basis.x, basis.coordinate)
+    damping = np.einsum("bik,bim->km", basis.x, wrench) + np.einsum("bk,bm->km", basis.coordinate, torque)
+    companion = np.zeros((2 * count, 2 * count))
+    companion[:count, count:] = np.eye(count)
+    companion[count:, :count], companion[count:, count:] = -np.diag(basis.omega_squared), -damping
+    poles, vectors = np.linalg.eig(companion)
+    size = np.abs(poles)
+    # rounding splits a real double pole into a pair: of that pair's vectors, both real and imaginary part are shapes
+    split = (poles.imag != 0.0) & (np.abs(poles.imag) <= SPLIT * size)
+    vectors[:, split] = np.where(poles.imag[split] > 0.0, vectors[:, split].real, vectors[:, split].imag)
+    poles[split] = poles[split].real
+    kept = (size >= limits[0]) & (size <= limits[1]) & (poles.imag >= 0.0)
+    poles, vectors = poles[kept], vectors[:count, kept]
+    x = np.moveaxis(basis.x @ vectors, 2, 0)[..., None]
+    coordinate = (basis.coordinate @ vectors).T[..., None]
+    poles, x, coordinate = _newton(tree, poles, x, coordinate)
+    return poles, np.moveaxis(x[..., 0], 0, 2), coordinate[..., 0].T
+
+
+def _newton(tree, poles, x, coordinate):
+    """Correct poles (F,) and shapes (F, n, 6, 1), (F, n, 1) of (s^2 M + s C + K) x = 0.
+
+    One step solves (s^2 M + s C + K) y = p with p = (2 s M + C) x, the derivative with s; then s - (x.p) / (y.p) is the
+    next pole and y the next shape. Real poles stay real.
+    """
+    real = poles.imag == 0.0
+    for _ in range(NEWTON_STEPS if len(poles) else 0):
+        s = poles * (1.0 + 1e-10)  # beside the pole, where the sweep cannot meet a zero pivot
+        sweep = tips_to_root(tree, s * s, s)
+        wrench, torque = damping_loads(tree, x, coordinate)
+        wrench = wrench + 2.0 * s[:, None, None, None] * (tree.inertia @ x)
+        y, y_coordinate = forced_motion(sweep, wrench, torque)
+        work, next_work = _work(x, coordinate, wrench, torque), _work(y, y_coordinate, wrench, torque)
+        poles = s - work / next_work
+        poles[real] = poles[real].real
+        size = np.sqrt(np.sum(np.abs(y) ** 2, axis=(1, 2, 3), keepdims=True))
+        x, coordinate = y / size, y_coordinate / size[:, 0]
+    return poles, x, coordinate
+
+
+def _work(x, coordinate, wrench, torque):
+    return np.sum(x * wrench, axis=(1, 2, 3)) + np.sum(coordinate * torque, axis=(1, 2))
+
+
+def _mode(tree, pole, x, coordinate):
+    """Return the `Mode` with its shapes scaled and its energy shared out."""
+    momentum = np.einsum("bij,bj->bi", tree.inertia, x)
+    parts = np.real(np.sum(x.conj() * momentum, axis=1))
+    main = np.unravel_index(np.argmax(np.abs(x * momentum)), x.shape)
+    scale = np.conj(x[main]) / np.abs(x[main]) / np.sqrt(parts.sum())
+    x, coordinate, momentum = x * scale, coordinate * scale, momentum * scale
+    total = momentum.copy()  # of everything behind each cut, about the body's origin
+    for row in reversed(range(1, len(total))):
+        total[tree.parent[row]] += move(tree.lever[row]).T @ move(tree.offset[row]).T @ total[row]
+    at_hinge = [move(tree.offset[row]).T @ total[row] for row in range(len(total))]
+    hinge_share = np.real([np.conj(c) * (D @ p) for c, D, p in zip(coordinate, tree.axis, at_hinge, strict=True)])
+    return Mode(
+        float(np.abs(pole) / (2.0 * np.pi)),
+        float(-pole.real / np.abs(pole)),
+        complex(pole),
+        x,
+        coordinate,
+        np.real(np.sum(x.conj() * momentum, axis=1)),
+        _split(x[0], momentum[0], centre_of_mass(tree.inertia[0])),
+        hinge_share,
+        _split(x[0], total[0], centre_of_mass(_whole_inertia(tree))),
+    )
+
+
+def _whole_inertia(tree):
+    """Return the inertia (6, 6) of the whole tree as one rigid body about the root's origin."""
+    inertia = tree.inertia.copy()
+    for row in reversed(range(1, len(inertia))):
+        X = move(tree.offset[row]) @ move(tree.lever[row])
+        inertia[tree.parent[row]] += X.T @ inertia[row] @ X
+    return inertia[0]
+
+
+def _split(x, momentum, point):
+    """Return the six products of motion and momentum, both taken to a point (3,) from where they are."""
+    there = move(point) @ x
+    return np.real(np.conj(there) * (move(-point).T @ momentum))
+
+
+def describe(model, mode, group=str, least=0.2):
+    """Return a few words on a mode: the motions that bring the largest parts into its kinetic energy.
+
+    Parameters
+    ----------
+    model : LinearModel
+        In axes x forward, z up, for the names of the whole tree's motions.
+    mode : Mode
+    group : function
+        From a body's name to the name under which the share of its hinge is summed up, such as "road arms".
+    least : float
+        Parts below this part of the largest are left out.
+    """
+    parts = {f"whole {name}": share for name, share in zip(DIRECTIONS, mode.whole_share, strict=True)}
+    for body, share in zip(model.bodies[1:], mode.hinge_share[1:], strict=True):
+        parts[group(body.name)] = parts.get(group(body.name), 0.0) + share
+    main = sorted(parts, key=parts.get, reverse=True)
+    return ", ".join(f"{name} {parts[name]:.0%}" for name in main[:4] if parts[name] >= least * parts[main[0]])

@@ -1,0 +1,1 @@
+"""The production form, compiled: cells and lanes, kinematics, the two sweeps of the Riccati form, integration."""

@@ -1,0 +1,66 @@
+"""How far a vehicle is from the paper's table: the number that a calibration makes small."""
+
+import numpy as np
+
+from ..case import GOOD, Case
+from ..paper.paper_table import COLUMNS, PAPER_AXES, SENSORS
+
+FIRST_SEED = 1001  # of roads; `study table1`, which checks the result, has others
+FAILED = 2.0  # what every value of a row with a failed run counts as: log of its ratio
+FREE_BIAS = 1.05  # mean bias of a column, up or down, that is not punished
+BIAS_WEIGHT = 2.0
+
+
+def cases(rows, seeds):
+    """Return the cases of one candidate: `seeds` runs of each row (class, speed), one row after the other.
+
+    Each run of a row has its own road and its own track phase; phases p and 1 - p are mirror images of each other, so
+    that half of all phases are covered evenly.
+    """
+    return [
+        Case(road_class, speed, FIRST_SEED + k, (k + 0.5) / (2.0 * seeds))
+        for road_class, speed in rows
+        for k in range(seeds)
+    ]
+
+
+def ratios(results, paper):
+    """Return ours over the paper's and the scatter of ours.
+
+    Parameters
+    ----------
+    results : sequence of drive.Result
+        In the order of `cases`.
+    paper : dict
+        (class, speed) -> values (6,), as `paper_table.read_table` gives it; the rows of the cases.
+
+    Returns
+    -------
+    ratios : ndarray (rows, 6)
+        Root mean squares over the runs of a row over the paper's values; nan in rows with a failed run.
+    scatter : float
+        Typical standard error of log(ratio), from the scatter among the runs of a row; nan if there is none.
+    """
+    levels = np.array([_levels(result) for result in results]).reshape(len(paper), -1, len(COLUMNS))
+    ours = np.sqrt(np.mean(np.square(levels), axis=1))
+    seeds = levels.shape[1]
+    spread = np.log(levels[np.isfinite(ours).all(axis=1)])
+    scatter = np.sqrt(spread.var(axis=1, ddof=1).mean() / seeds) if seeds > 1 and spread.size else np.nan
+    return ours / np.array(list(paper.values())), float(scatter)
+
+
+def objective(ratios):
+    """Return the objective of ratios (rows, 6): rms(log(ratio)) and a penalty on columns off on average.
+
+    The penalty is the mean over the columns of how far the mean of |log(ratio)| lies outside `FREE_BIAS`.
+    """
+    logs = np.log(ratios)
+    logs[~np.isfinite(logs).all(axis=1)] = FAILED
+    bias = np.maximum(0.0, np.abs(logs.mean(axis=0)) - np.log(FREE_BIAS))
+    return float(np.sqrt(np.mean(np.square(logs))) + BIAS_WEIGHT * bias.mean())
+
+
+def _levels(result):
+    if result.status != GOOD:
+        return np.full(len(COLUMNS), np.nan)
+    return np.array([result.rms[sensor] for sensor in SENSORS])[:, PAPER_AXES].ravel()

@@ -1,0 +1,152 @@
+"""What a calibration may change and how it searches: its plan, read from a YAML file and checked."""
+
+import re
+from math import exp, log
+from pathlib import Path
+from typing import Annotated, Literal
+
+import yaml
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from ...vehicle.vehicle_file import parse_vehicle
+from .vehicle_text import calibrated_vehicle_text
+
+DIGITS = 4  # of every value that is tried, so that what the file says is what was run
+_ITEM = re.compile(r"([a-z_]+\.[a-z_]+)(?:\[(\d)\])?")
+
+Bound = Annotated[float, Field(allow_inf_nan=False)]
+
+
+class PlanError(ValueError):
+    """A plan that cannot be used; the message names file, item, value and what is accepted."""
+
+
+class _Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Parameter(_Strict):
+    """A number of the vehicle file that may vary, written `section.item` or `section.item[0]`."""
+
+    item: str
+    low: Bound
+    high: Bound
+    scale: Literal["linear", "log"]
+    source: Annotated[str, Field(min_length=1)]
+
+    @model_validator(mode="after")
+    def _usable(self):
+        if not _ITEM.fullmatch(self.item):
+            raise ValueError(f"item is {self.item!r}, must be written section.item or section.item[0]")
+        if not self.low < self.high:
+            raise ValueError(f"{self.item}: low is {self.low:g} and high {self.high:g}, low must be below high")
+        if self.scale == "log" and self.low <= 0.0:
+            raise ValueError(f"{self.item}: low is {self.low:g}, must be > 0 on a log scale")
+        return self
+
+    @property
+    def quantity(self):
+        """`section.item` without the number of the element."""
+        return _ITEM.fullmatch(self.item)[1]
+
+    @property
+    def component(self):
+        """Which element of a list it is, or None where the quantity is one number."""
+        element = _ITEM.fullmatch(self.item)[2]
+        return None if element is None else int(element)
+
+    def value(self, share):
+        """Return the value at a share (0 to 1) of the range, rounded to `DIGITS` digits."""
+        if self.scale == "log":
+            value = self.low * exp(share * log(self.high / self.low))
+        else:
+            value = self.low + share * (self.high - self.low)
+        return min(max(float(f"{value:.{DIGITS}g}"), self.low), self.high)
+
+    def share(self, value):
+        """Return which share of the range lies below a value; beyond the bounds it is 0 or 1."""
+        value = min(max(value, self.low), self.high)
+        if self.scale == "log":
+            return log(value / self.low) / log(self.high / self.low)
+        return (value - self.low) / (self.high - self.low)
+
+    def of(self, vehicle):
+        """Return its value in a vehicle."""
+        section, name = self.quantity.split(".")
+        value = getattr(getattr(vehicle, section), name)
+        return value if self.component is None else value[self.component]
+
+
+class Plan(_Strict):
+    """The whole file."""
+
+    rows: Annotated[list[tuple[str, float]], Field(min_length=1)]  # of the paper's table: class, speed in m/s
+    seeds: Annotated[int, Field(ge=1, le=100)]  # runs a row, each with its own road and track phase
+    measuring: Annotated[float, Field(ge=1.0, le=60.0)]  # s of each run
+    population: Annotated[int, Field(ge=4, le=1000)]  # candidates a generation
+    generations: Annotated[int, Field(ge=1, le=100000)]
+    step: Annotated[float, Field(gt=0.0, le=0.5)]  # of the optimiser, first standard deviation in shares of the ranges
+    seed: Annotated[int, Field(ge=0, le=2**32 - 1)]  # of the optimiser
+    parameters: Annotated[list[Parameter], Field(min_length=2)]
+
+    @model_validator(mode="after")
+    def _each_once(self):
+        items = [parameter.item for parameter in self.parameters]
+        for item in items:
+            if items.count(item) > 1:
+                raise ValueError(f"parameters: {item} stands there {items.count(item)} times, must be once")
+        return self
+
+    @property
+    def items(self):
+        """Names of all parameters."""
+        return [parameter.item for parameter in self.parameters]
+
+    def values(self, shares):
+        """Return a value of each parameter, from shares of their ranges."""
+        return [parameter.value(share) for parameter, share in zip(self.parameters, shares, strict=True)]
+
+    def shares(self, values):
+        """Return shares of the ranges, from a value of each parameter."""
+        return [parameter.share(value) for parameter, value in zip(self.parameters, values, strict=True)]
+
+
+def read_plan(path, vehicle_text, given):
+    """Return the `Plan` in a YAML file, whose parameters and bounds a vehicle file accepts.
+
+    `given` are the rows (class, speed) that there are.
+
+    Raises
+    ------
+    PlanError
+        The file cannot be read, is not a plan, or does not go with the vehicle file.
+    """
+    try:
+        plan = Plan.model_validate(yaml.safe_load(Path(path).read_text(encoding="utf-8")))
+    except (OSError, UnicodeDecodeError) as error:
+        raise PlanError(f"calibration plan {str(path)!r} cannot be read: {error}") from None
+    except yaml.YAMLError as error:
+        raise PlanError(f"{path}: not a YAML file: {error}") from None
+    except ValidationError as error:
+        raise PlanError("\n".join(_sentence(path, each) for each in error.errors())) from None
+    for row in plan.rows:
+        if row not in given:
+            known = ", ".join(f"[{road_class}, {speed:g}]" for road_class, speed in given)
+            raise PlanError(f"{path}: rows: [{row[0]}, {row[1]:g}] is not in the paper's table, which gives {known}")
+    for side in ("low", "high"):
+        bounds = [getattr(parameter, side) for parameter in plan.parameters]
+        try:
+            parse_vehicle(
+                calibrated_vehicle_text(vehicle_text, plan.parameters, bounds), f"vehicle with all {side} bounds"
+            )
+        except ValueError as error:
+            raise PlanError(f"{path}: {error}") from None
+    return plan
+
+
+def _sentence(path, error):
+    item = ".".join(str(part) for part in error["loc"])
+    reason = error["msg"].removeprefix("Value error, ")
+    if error["type"] in ("missing", "value_error"):
+        return f"{path}: {item}: {reason}" if item else f"{path}: {reason}"
+    return f"{path}: {item or 'the whole file'} is {error['input']!r}: {reason}"

@@ -1,0 +1,127 @@
+"""The Markdown report of a calibration."""
+
+import numpy as np
+
+from ..case import BAND
+from ..paper.paper_table import COLUMNS, column_bias, error_factor
+from .objective import BIAS_WEIGHT, FREE_BIAS
+from .sensitivity import PER, REACH
+
+ALIKE = 1.05  # neighbours have an objective up to this multiple of the best
+NEAR = 0.05  # share of the range that counts as near a bound
+
+
+def report(plan, start, history, rows, sensitive):
+    """Return the report as Markdown text.
+
+    Parameters
+    ----------
+    plan : calibration_plan.Plan
+    start : sequence of float
+        Values of the parameters before.
+    history : calibration_history.History
+    rows : sequence of (str, float)
+        Class and speed of each row.
+    sensitive : sensitivity.Sensitivity
+        At the best candidate.
+    """
+    best, first = history.best, history.candidates[0]
+    neighbours = [each for each in history.candidates if each.objective <= ALIKE * best.objective]
+    return "\n".join(
+        [
+            _head(plan, history, rows, best, first),
+            _columns(best, first),
+            _rows(rows, best),
+            _parameters(plan, start, best, neighbours, sensitive),
+            _sources(plan),
+        ]
+    )
+
+
+def _head(plan, history, rows, best, first):
+    generations = max(candidate.generation for candidate in history.candidates)
+    named = ", ".join(f"{road_class} at {speed:g}" for road_class, speed in rows)
+    return f"""# Calibration
+
+{len(plan.parameters)} parameters of the vehicle, fitted to {len(rows)} rows of Table 1 of [Tao2025]
+(class {named} m/s).
+RMS over {BAND[0]:g}-{BAND[1]:g} Hz during {plan.measuring:g} s, {plan.seeds} runs a row.
+Objective: rms(log(ours / paper)) over all numbers, plus {BIAS_WEIGHT:g} times what the mean of log(ours / paper)
+of a column exceeds log({FREE_BIAS:g}), up or down, on average over the columns.
+Search: CMA-ES, {generations} generations of {plan.population}, seed {plan.seed}.
+
+| | start | calibrated |
+|---|---|---|
+| objective | {first.objective:.4f} | {best.objective:.4f} |
+| error factor | {_plain(error_factor(first.ratios, 1.0))} | {_plain(error_factor(best.ratios, 1.0))} |
+
+The calibrated set is candidate {best.index} of generation {best.generation}.
+Of all that were tried its objective is the smallest, so partly by luck: the standard error of one of its numbers,
+from the scatter among the runs of a row, is {_percent(best.scatter)}.
+An honest comparison is `trackvib study table1` with `vehicle.yaml`, which drives over other roads.
+"""
+
+
+def _columns(best, first):
+    lines = ["## Mean bias of the columns", "", "Geometric mean of ours / paper, in the paper's axes.", ""]
+    lines += ["| | " + " | ".join(COLUMNS) + " |", "|" + "---|" * (len(COLUMNS) + 1)]
+    for name, candidate in (("start", first), ("calibrated", best)):
+        lines.append(_line(name, *map(_plain, column_bias(candidate.ratios, 1.0))))
+    return "\n".join(lines) + "\n"
+
+
+def _rows(rows, best):
+    lines = ["## Rows", "", "Ours / paper of the calibrated set.", ""]
+    lines += ["| class | m/s | " + " | ".join(COLUMNS) + " | factor |", "|" + "---|" * (len(COLUMNS) + 3)]
+    for (road_class, speed), ratios in zip(rows, best.ratios, strict=True):
+        lines.append(_line(road_class, f"{speed:g}", *map(_plain, (*ratios, error_factor(ratios, 1.0)))))
+    return "\n".join(lines) + "\n"
+
+
+def _parameters(plan, start, best, neighbours, sensitive):
+    lines = [
+        "## Parameters",
+        "",
+        f"The set is not unique: {len(neighbours)} candidates, the best one among them, have an objective at most "
+        f"{100.0 * (ALIKE - 1.0):.0f} % above the best; the table gives the range that they span.",
+        "Strength: root mean square, over all numbers of the table, of the change of the RMS when the parameter moves "
+        f"by {100.0 * PER:.0f} % of its range, from runs {100.0 * REACH:.0f} % below and above; "
+        f"noise alone gives {_percent(sensitive.noise)}. The strongest first.",
+        "",
+        "| parameter | low | high | scale | start | calibrated | near a bound | neighbours | strength |",
+        "|" + "---|" * 9,
+    ]
+    for k in sensitive.order:
+        parameter, value = plan.parameters[k], best.values[k]
+        share = parameter.share(value)
+        near = "low" if share < NEAR else "high" if share > 1.0 - NEAR else ""
+        others = [neighbour.values[k] for neighbour in neighbours]
+        lines.append(
+            _line(
+                f"`{parameter.item}`",
+                *(f"{each:g}" for each in (parameter.low, parameter.high)),
+                parameter.scale,
+                *(f"{each:g}" for each in (start[k], value)),
+                near,
+                f"{min(others):g} to {max(others):g}",
+                _percent(sensitive.strength[k]),
+            )
+        )
+    return "\n".join([*lines, "", "![search](convergence.png)", "", "![sensitivity](sensitivity.png)"]) + "\n"
+
+
+def _sources(plan):
+    lines = ["## Where the bounds come from", ""]
+    return "\n".join([*lines, *(f"* `{each.item}`: {each.source}" for each in plan.parameters)]) + "\n"
+
+
+def _line(*cells):
+    return f"| {' | '.join(cells)} |"
+
+
+def _plain(value):
+    return f"{value:.3f}" if np.isfinite(value) else "-"
+
+
+def _percent(value):
+    return f"{100.0 * value:.1f} %" if np.isfinite(value) else "not known"

@@ -1,0 +1,93 @@
+"""`trackvib study calibrate`: fit uncertain parameters of the vehicle to the given rows of [Tao2025]'s Table 1."""
+
+from pathlib import Path
+
+from dask.system import CPU_COUNT
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+from ...data import calibration_plan_file, default_vehicle_file, paper_table_file
+from ...vehicle.vehicle_file import parse_vehicle, read_vehicle
+from ..case_store import program, text_hash, whole_file
+from ..paper.paper_table import error_factor, read_table
+from ..workers import workers
+from .history import History
+from .objective import cases
+from .pictures import convergence_picture, sensitivity_picture
+from .plan import read_plan
+from .report import report
+from .search import Candidates, search
+from .sensitivity import sensitivity, write_sensitivity
+from .vehicle_text import calibrated_vehicle_text
+
+_HASH = 16  # digits
+
+
+def run_calibrate(plan_file, vehicle_file, generations, scheduler, out):
+    """Do the study, or go on with it; everything it leaves lies in the folder `out`.
+
+    Parameters
+    ----------
+    plan_file, vehicle_file : path-like or None
+        None for those that come with the package.
+    generations : int or None
+        How many the search has in all, with those done earlier; None for the plan's number.
+    scheduler : str or None
+        As `farm.farm` takes it.
+    out : path-like
+
+    Raises
+    ------
+    PlanError, VehicleFileError, HistoryError, FarmError, OSError
+        Plan, vehicle file or the folder cannot be used, or nothing can run.
+    """
+    vehicle, text = read_vehicle(vehicle_file or default_vehicle_file())
+    given = read_table(paper_table_file())
+    plan = read_plan(plan_file or calibration_plan_file(), text, given)
+    paper = {row: given[row] for row in plan.rows}
+    folder, console = Path(out), Console(highlight=False)
+    folder.mkdir(parents=True, exist_ok=True)
+    key = _key(text, plan, paper)
+    history, around = (
+        History(folder / name, key, plan.items, list(paper)) for name in ("history.csv", "sensitivity_runs.csv")
+    )
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with workers(scheduler, CPU_COUNT) as client, Progress(*columns, console=console) as progress:
+        candidates = Candidates(client, text, plan, cases(paper, plan.seeds), paper)
+        start = plan.values(plan.shares([parameter.of(vehicle) for parameter in plan.parameters]))
+        search(candidates, history, start, generations or plan.generations, progress)
+        best = history.best
+        _write_vehicle(folder / "vehicle.yaml", text, plan, best.values)
+        sensitive = sensitivity(candidates, around, best.values, progress)
+    with whole_file(folder / "sensitivity.csv") as draft:
+        write_sensitivity(draft, plan, list(paper), sensitive)
+    with whole_file(folder / "sensitivity.png") as draft:
+        sensitivity_picture(draft, plan, list(paper), sensitive)
+    with whole_file(folder / "convergence.png") as draft:
+        convergence_picture(draft, plan, history.candidates)
+    with whole_file(folder / "calibration.md") as draft:
+        draft.write_text(report(plan, start, history, list(paper), sensitive), encoding="utf-8")
+    console.print(
+        f"objective {best.objective:.3f}, at the start {history.candidates[0].objective:.3f}; "
+        f"error factor over {len(paper)} rows {error_factor(best.ratios, 1.0):.3f}"
+    )
+    left = "vehicle.yaml, calibration.md, convergence.png, sensitivity.png, sensitivity.csv, history.csv"
+    console.print(f"left in {folder}: {left}", soft_wrap=True)
+
+
+def _key(vehicle_text, plan, paper):
+    """Return a hash of all that decides about the candidates and their numbers."""
+    # more generations may be asked for later, and sources put into better words
+    asked = plan.model_dump_json(exclude={"generations": True, "parameters": {"__all__": {"source"}}})
+    numbers = repr([values.tolist() for values in paper.values()])
+    return text_hash(vehicle_text + asked + numbers + program())[:_HASH]
+
+
+def _write_vehicle(path, text, plan, values):
+    new = calibrated_vehicle_text(text, plan.parameters, values)
+    vehicle = parse_vehicle(new, str(path))
+    for parameter, value in zip(plan.parameters, values, strict=True):
+        if parameter.of(vehicle) != value:
+            raise ValueError(f"{path}: {parameter.item} reads {parameter.of(vehicle)}, must be {value}")
+    with whole_file(path) as draft:
+        draft.write_text(new, encoding="utf-8")

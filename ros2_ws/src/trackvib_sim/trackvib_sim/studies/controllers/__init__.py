@@ -1,0 +1,1 @@
+"""`study controllers`: control laws beside constant currents."""

@@ -1,0 +1,97 @@
+"""`trackvib study controllers`: every control law in four scenarios, beside constant currents."""
+
+import hashlib
+import inspect
+from pathlib import Path
+
+import mr_mount_controller
+from mr_mount_controller.laws import find_law, known_laws
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.table import Table
+
+from ...data import default_vehicle_file
+from ...vehicle.vehicle_file import read_vehicle
+from ..case_store import CaseStore, whole_file
+from ..paper.table1 import track_phase
+from ..run_missing import run_missing
+from .picture import controllers_picture
+from .report import report
+from .scenario import PASSIVE, PASSIVE_CURRENT, SCENARIOS, ControlCase, ControlResult, control
+from .table import table_rows, verdict, write_table
+
+GRID = (0.7, 0.8, 0.9, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0)  # A, over which the best constant current is searched
+
+
+def run_controllers(laws, scenarios, seeds, vehicle_file, scheduler, out):
+    """Do the study; everything it leaves lies in the folder `out`.
+
+    Parameters
+    ----------
+    laws : sequence of str, or None
+        As `find_law` takes them; None for all that are known.
+    scenarios : sequence of str
+        Names in `controlled.SCENARIOS`.
+    seeds : int
+        Number of runs a scenario that varies, each with its own road and track phase.
+    vehicle_file, scheduler, out
+        As `table1.perform` takes them.
+
+    Raises
+    ------
+    FarmError, ParameterError, VehicleFileError, OSError
+        Nothing can run, there is no such law, the vehicle file or the folder cannot be used.
+    """
+    laws = [name for name in laws or known_laws() if name != PASSIVE]
+    classes = [find_law(name) for name in laws]
+    path = Path(vehicle_file or default_vehicle_file())
+    vehicle, text = read_vehicle(path)
+    folder, console = Path(out), Console(highlight=False)
+    store = CaseStore(folder / "cases", text + controllers(classes), ControlCase, ControlResult)
+    if store.foreign:
+        console.print(f"{store.foreign} runs in {folder} are of another vehicle or version and are not used")
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console) as progress:
+        found = run_missing(vehicle, cases(laws, scenarios, seeds), store, scheduler, progress, "runs", control)
+    rows = table_rows(found)
+    with whole_file(folder / "controllers.csv") as draft:
+        write_table(draft, rows)
+    with whole_file(folder / "controllers.md") as draft:
+        draft.write_text(report(rows, seeds, path.name, text), encoding="utf-8")
+    with whole_file(folder / "controllers.png") as draft:
+        controllers_picture(rows, draft)
+    _print(console, rows, folder)
+
+
+def cases(laws, scenarios, seeds):
+    """Return the cases of a study: each law, and the passive one at each current of `GRID`."""
+    choices = [(law, PASSIVE_CURRENT) for law in laws] + [(PASSIVE, current) for current in GRID]
+    return [
+        ControlCase(scenario, seed, track_phase(seed), law, current)
+        for scenario in scenarios
+        for seed in range(1, (seeds if SCENARIOS[scenario].varies else 1) + 1)
+        for law, current in choices
+    ]
+
+
+def controllers(classes):
+    """Return a hash of the controller package and of the files of law classes: what decides besides the simulation."""
+    package = Path(mr_mount_controller.__file__).parent
+    files = sorted({*package.rglob("*.py"), *(Path(inspect.getfile(each)) for each in classes)})
+    return hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()
+
+
+def _print(console, rows, folder):
+    table = Table("scenario", "quantity", title="gain over passive mounts, %", title_justify="left")
+    for name in ("best constant, A", "over 1 A", "best law", "over 1 A", "over best constant", "chance"):
+        table.add_column(name, justify="right")
+    for each in verdict(rows):
+        table.add_row(
+            SCENARIOS[each.scenario].title, each.quantity, f"{each.current:g}", each.constant_gain.text(),
+            each.law, each.law_gain.text(), each.over_best.text(), f"{each.chance:.1f}",
+        )  # fmt: skip
+    console.print(table)
+    for row in rows:
+        if row.failures:
+            console.print(f"{row.scenario}, {row.name}: {'; '.join(row.failures)}", soft_wrap=True)
+    console.print(f"left in {folder}: controllers.csv, controllers.md, controllers.png, cases/", soft_wrap=True)

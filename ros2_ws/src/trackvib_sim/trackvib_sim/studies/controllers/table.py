@@ -1,0 +1,117 @@
+"""Rows of the controller study, and what the laws gain over constant currents."""
+
+import csv
+from typing import NamedTuple
+
+import numpy as np
+
+from .scenario import GOOD, PASSIVE, PASSIVE_CURRENT, QUANTITIES, SCENARIOS
+
+JUDGED = ("powertrain", "powertrain_wk", "hull", "hull_wk", "force", "travel")  # the less the better
+
+
+ALIKE = 2.5  # A; from here on all constant currents give nearly the same mount, damping within 15 %
+
+
+class Row(NamedTuple):
+    """One law, or one constant current, in a scenario over all seeds."""
+
+    scenario: str
+    law: str
+    current: float | None  # A, of the passive law, else None
+    levels: dict  # quantity -> (seeds,), not a number where a run failed
+    failures: list  # why runs failed
+
+    @property
+    def name(self):
+        """What the row is called: the law, or the constant current."""
+        return self.law if self.current is None else f"{self.current:g} A"
+
+    def mean(self, quantity):
+        """Return a quantity's mean over the seeds; not a number if any run failed."""
+        return float(np.mean(self.levels[quantity]))
+
+
+class Gain(NamedTuple):
+    """By how many percent a quantity is less, over the seeds, each compared with itself."""
+
+    mean: float
+    scatter: float  # standard deviation over the seeds; not a number where there is one run
+
+    def text(self):
+        """Return it as a cell."""
+        return f"{self.mean:+.1f}" + (f" ± {self.scatter:.1f}" if np.isfinite(self.scatter) else "")
+
+
+class Verdict(NamedTuple):
+    """The best constant current and the best law in a scenario, by one quantity."""
+
+    scenario: str
+    quantity: str
+    current: float  # A, the best constant one
+    constant_gain: Gain  # over passive at 1 A
+    law: str
+    law_gain: Gain  # over passive at 1 A
+    over_best: Gain  # of the law over the best constant current
+    chance: float  # %, see `chance`
+
+
+def table_rows(found):
+    """Return the rows of a dict of cases and results (`controlled.ControlCase`, `controlled.ControlResult`)."""
+    by_row, order = {}, list(SCENARIOS)
+    # not in the order in which runs were done: the table must not depend on it
+    for case in sorted(found, key=lambda c: (order.index(c.scenario), c.law != PASSIVE, c.law, c.current, c.seed)):
+        key = (case.scenario, case.law, case.current if case.law == PASSIVE else None)
+        by_row.setdefault(key, []).append(found[case])
+    return [_row(key, results) for key, results in by_row.items()]
+
+
+def _row(key, results):
+    levels = {name: np.array([each.levels.get(name, np.nan) for each in results]) for name in QUANTITIES}
+    return Row(*key, levels, [each.status for each in results if each.status != GOOD])
+
+
+def gain(row, reference, quantity):
+    """Return the `Gain` of a row over another one of its scenario."""
+    each = 100.0 * (1.0 - row.levels[quantity] / reference.levels[quantity])
+    return Gain(float(each.mean()), float(each.std()) if each.size > 1 else np.nan)
+
+
+def chance(constants, quantity):
+    """Return by how many percent a quantity's means scatter among constant currents that are nearly alike.
+
+    Tracks amplify the smallest difference, so that the best of several rows is better by about this much for nothing.
+    """
+    means = [row.mean(quantity) for row in constants if row.current >= ALIKE]
+    return 100.0 * float(np.std(means, ddof=1) / np.mean(means)) if len(means) > 1 else np.nan
+
+
+def verdict(rows):
+    """Return the `Verdict`s by scenario and judged quantity, where a law and passive at 1 A have not failed."""
+    found = []
+    for scenario in dict.fromkeys(row.scenario for row in rows):
+        mine = [row for row in rows if row.scenario == scenario and not row.failures]
+        constants = {row.current: row for row in mine if row.current is not None}
+        laws = [row for row in mine if row.current is None]
+        if PASSIVE_CURRENT not in constants or not laws:
+            continue
+        for quantity in JUDGED:
+            constant, law = (min(them, key=lambda row: row.mean(quantity)) for them in (constants.values(), laws))
+            passive = constants[PASSIVE_CURRENT]
+            gains = (gain(constant, passive, quantity), gain(law, passive, quantity), gain(law, constant, quantity))
+            noise = chance(constants.values(), quantity)
+            found.append(Verdict(scenario, quantity, constant.current, gains[0], law.law, *gains[1:], noise))
+    return found
+
+
+def write_table(path, rows):
+    """Write rows to a CSV file: means over the seeds, and in further columns standard deviations."""
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        columns = [*QUANTITIES, *(f"{name}_std" for name in QUANTITIES)]
+        writer.writerow(["scenario", "law", "constant_current", *columns, "status"])
+        for row in rows:
+            values = [part(row.levels[name]) for part in (np.mean, np.std) for name in QUANTITIES]
+            cells = [f"{value:.6g}" if np.isfinite(value) else "" for value in values]
+            current = "" if row.current is None else f"{row.current:g}"
+            writer.writerow([row.scenario, row.law, current, *cells, "; ".join(row.failures) or GOOD])

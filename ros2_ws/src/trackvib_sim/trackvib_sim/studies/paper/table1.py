@@ -1,0 +1,98 @@
+"""`trackvib study table1`: RMS accelerations over road classes and speeds, beside Table 1 of [Tao2025]."""
+
+from math import sqrt
+from pathlib import Path
+
+import numpy as np
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.table import Table
+
+from ...data import default_vehicle_file, paper_table_file
+from ...vehicle.vehicle_file import read_vehicle
+from ..case import BAND, GOOD, Case
+from ..case_store import CaseStore, whole_file
+from ..run_missing import run_missing
+from .paper_table import error_factor, given, read_table, table_rows, write_table
+from .table1_picture import table_picture
+from .table1_report import report
+
+_GOLDEN = (sqrt(5.0) - 1.0) / 2.0  # multiples of it fill an interval evenly, however many there are
+
+
+def run_table1(classes, speeds, seeds, vehicle_file, scheduler, out):
+    """Do the study; everything it leaves lies in the folder `out`.
+
+    Parameters
+    ----------
+    classes, speeds : sequences of str and of float
+        Road classes, and speeds [m/s].
+    seeds : int
+        Number of runs a class and speed.
+    vehicle_file : path-like or None
+        None for the vehicle that comes with the package.
+    scheduler : str or None
+        As `farm.farm` takes it.
+    out : path-like
+
+    Raises
+    ------
+    FarmError, VehicleFileError, OSError
+        Nothing can run, the vehicle file or the folder cannot be used.
+    """
+    path = Path(vehicle_file or default_vehicle_file())
+    vehicle, text = read_vehicle(path)
+    paper = read_table(paper_table_file())
+    folder, console = Path(out), Console(highlight=False)
+    store = CaseStore(folder / "cases", text)
+    if store.foreign:
+        console.print(f"{store.foreign} runs in {folder} are of another vehicle or version and are not used")
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console) as progress:
+        found = run_missing(vehicle, cases(classes, speeds, seeds), store, scheduler, progress, "runs")
+    rows = table_rows(found)
+    with whole_file(folder / "table1.csv") as draft:
+        write_table(draft, rows)
+    with whole_file(folder / "table1.md") as draft:
+        draft.write_text(report(rows, paper, seeds, path.name, text), encoding="utf-8")
+    with whole_file(folder / "table1.png") as draft:
+        table_picture(rows, paper, seeds, draft)
+    _print(console, rows, paper, folder)
+
+
+def cases(classes, speeds, seeds):
+    """Return the cases of a study; seed and track phase of a case do not depend on how many there are."""
+    return [
+        Case(road_class, speed, seed, track_phase(seed))
+        for road_class in classes
+        for speed in speeds
+        for seed in range(1, seeds + 1)
+    ]
+
+
+def track_phase(seed):
+    """Return the part of a pitch by which the right track lies ahead of the left one in the runs of a seed."""
+    return seed * _GOLDEN % 1.0
+
+
+def _print(console, rows, paper, folder):
+    title = f"RMS acceleration, m/s², {BAND[0]:g}-{BAND[1]:g} Hz, paper axes (Y is vertical)"
+    table = Table("class", title=title, title_justify="left")
+    for name in ("m/s", "chassis X, Y, Z", "powertrain X, Y, Z", "error factor"):
+        table.add_column(name, justify="right")
+    for row in rows:
+        sensors = ("  ".join(_number(value) for value in part) for part in (row.rms[:3], row.rms[3:]))
+        pair = given([row], paper)
+        table.add_row(row.road_class, f"{row.speed:g}", *sensors, f"{error_factor(*pair):.2f}" if pair.size else "")
+    console.print(table)
+    for row in rows:
+        if row.status != GOOD:
+            console.print(f"class {row.road_class}, {row.speed:g} m/s: {row.status}", soft_wrap=True)
+    pairs = given(rows, paper)
+    if pairs.size:
+        console.print(f"error factor over all rows that the paper gives: {error_factor(*pairs):.3f}")
+    console.print(f"left in {folder}: table1.csv, table1.md, table1.png, cases/", soft_wrap=True)
+
+
+def _number(value):
+    return f"{value:5.2f}" if np.isfinite(value) else "    -"

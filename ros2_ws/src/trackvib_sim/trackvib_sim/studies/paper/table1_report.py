@@ -1,0 +1,112 @@
+"""The Markdown report of the table study: ours beside the paper's, row by row, column by column, and the reductions."""
+
+import numpy as np
+
+from ...bags.versions import versions
+from ..case import BAND, ENGINE_SPEED, GOOD, MEASURING
+from ..case_store import program, text_hash
+from .paper_table import SENSORS, column_bias, error_factor, given, least_error_factors, reduction
+
+_NAMES = tuple(f"{sensor} {axis}" for sensor in SENSORS for axis in "XYZ")
+_HASH = 12  # digits
+
+
+def report(rows, paper, seeds, vehicle_name, vehicle_text):
+    """Return the report as Markdown text.
+
+    Parameters
+    ----------
+    rows : sequence of paper_table.Row
+    paper : dict
+        (class, speed) -> values (6,), as `paper_table.read_table` gives it.
+    seeds : int
+        Number of runs a row.
+    vehicle_name, vehicle_text : str
+        Of the vehicle file.
+    """
+    parts = [_head(seeds, vehicle_name, vehicle_text), _levels(rows, paper)]
+    if given(rows, paper).size:
+        parts.append(_comparison(*given(rows, paper), paper))
+    return "\n".join([*parts, _reductions(rows, paper)])
+
+
+def _head(seeds, vehicle_name, vehicle_text):
+    return f"""# Table 1 of [Tao2025] and ours
+
+RMS accelerations in m/s² over {BAND[0]:g}-{BAND[1]:g} Hz (the paper's band is unknown) during {MEASURING:g} s after
+settling, in the paper's axes: X longitudinal, Y vertical, Z lateral (ROS x, z, y). Chassis is the hull at the
+powertrain's rear connection, powertrain its input end, in the middle between the MR mounts. Engine at
+{ENGINE_SPEED:g} r/min, its second order imposed across the mounts; 1 A in both coils. Ours are means ± standard
+deviations over {seeds} seeds, each with its own road and its own phase between the two tracks.
+
+* vehicle file: `{vehicle_name}`, SHA-256 `{text_hash(vehicle_text)[:_HASH]}`
+* program: trackvib_sim {versions()["trackvib_sim"]}, SHA-256 of the simulation's modules `{program()[:_HASH]}`
+"""
+
+
+def _levels(rows, paper):
+    lines = ["## Levels", "", "Ours ± scatter, and in brackets the paper's where they are given.", ""]
+    lines += _header("class", "m/s", *_NAMES, "error factor", "status")
+    for row in rows:
+        theirs = paper.get((row.road_class, row.speed), [None] * 6)
+        cells = [_level(*each) for each in zip(row.rms, row.scatter, theirs, strict=True)]
+        pair = given([row], paper)
+        factor = f"{error_factor(*pair):.3f}" if pair.size else ""
+        lines.append(_line(row.road_class, f"{row.speed:g}", *cells, factor, row.status))
+    outside = [f"{row.road_class} at {row.speed:g} m/s" for row in rows if row.status != GOOD]
+    if outside:
+        lines += ["", f"Outside the valid range, or partly so: class {', '.join(outside)}."]
+    return "\n".join(lines) + "\n"
+
+
+def _level(ours, scatter, theirs):
+    cell = f"{ours:.2f} ± {scatter:.2f}" if np.isfinite(ours) else "-"
+    return cell if theirs is None else f"{cell} ({theirs:.2f})"
+
+
+def _comparison(ours, paper, table):
+    by_speed, by_power = least_error_factors(table)
+    lines = [
+        "## Comparison",
+        "",
+        f"Error factor exp(rms(log(ours / paper))) over the {len(ours)} rows that both have: "
+        f"**{error_factor(ours, paper):.3f}**. By column:",
+        "",
+        *_header("", *_NAMES),
+        _line("error factor", *(f"{error_factor(*each):.3f}" for each in zip(ours.T, paper.T, strict=True))),
+        _line("bias, geometric mean of ours / paper", *(f"{bias:.3f}" for bias in column_bias(ours, paper))),
+        "",
+        "For scale: up to class E ours hardly depends on the class, while the paper's rows scatter among the",
+        f"classes. Over all its {len(table)} rows the factor would be {by_speed:.3f} with the best levels for each",
+        f"speed that are the same for all classes, and {by_power:.3f} with the best that grow as a power of the speed,",
+        "one power a column.",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _reductions(rows, paper):
+    lines = [
+        "## Powertrain against chassis",
+        "",
+        "By how many percent the powertrain's level lies below the chassis's (negative: above): with our mounts,",
+        "with rigid ones (the hull's own point at the powertrain's sensor: what its place alone gives), in the paper.",
+        "",
+    ]
+    kinds = ("ours", "rigid", "paper")
+    lines += _header("class", "m/s", *(f"{axis} {kind}" for axis in "XYZ" for kind in kinds))
+    for row in rows:
+        if not np.isfinite(row.rms).all():
+            continue
+        theirs = paper.get((row.road_class, row.speed), np.full(6, np.nan))
+        values = np.stack((reduction(row.rms), reduction(row.rms, row.rigid), reduction(theirs)), axis=1)
+        cells = [f"{value:.1f}" if np.isfinite(value) else "" for value in values.ravel()]
+        lines.append(_line(row.road_class, f"{row.speed:g}", *cells))
+    return "\n".join(lines) + "\n"
+
+
+def _header(*names):
+    return [_line(*names), "|" + "---|" * len(names)]
+
+
+def _line(*cells):
+    return f"| {' | '.join(cells)} |"

@@ -1,0 +1,36 @@
+"""All cases of a study: those that are in its store already, and the others done on many cores."""
+
+from .case import drive
+from .workers import results, workers
+
+
+def run_missing(vehicle, cases, store, scheduler, progress, description, run=drive):
+    """Return a dict of every case and its result; each new one is stored as soon as it is there.
+
+    Parameters
+    ----------
+    vehicle : vehicle.parameters.Vehicle
+    cases : sequence of drive.Case, or of what `run` takes
+    store : case_store.CaseStore
+        Of the same cases and of the results of `run`.
+    scheduler : str or None
+        As `farm.farm` takes it.
+    progress : rich.progress.Progress
+        Shows how many of the cases are done, as `description`.
+    run : function of a vehicle and a case
+
+    Raises
+    ------
+    FarmError, OSError
+        As the workers and the store do.
+    """
+    found = {case: result for case in cases if (result := store.load(case)) is not None}
+    missing = [case for case in cases if case not in found]
+    task = progress.add_task(description, total=len(cases), completed=len(found))
+    if missing:
+        with workers(scheduler, len(missing)) as client:
+            for case, result in results(client, vehicle, missing, run):
+                store.save(case, result)
+                found[case] = result
+                progress.advance(task)
+    return found

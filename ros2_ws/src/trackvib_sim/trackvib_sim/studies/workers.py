@@ -1,0 +1,135 @@
+"""Cases on many cores at once, by Dask: those of this machine, or a cluster that is there already."""
+
+import asyncio
+import logging
+import signal
+from contextlib import contextmanager
+from multiprocessing import resource_tracker
+
+from dask.system import CPU_COUNT
+from distributed import CancelledError, Client, KilledWorker, LocalCluster, TimeoutError, rpc, wait
+
+from .case import drive
+from .case_store import program
+
+PATIENCE = 5.0  # s for a cluster to answer
+LONG_PATIENCE = 30.0  # s for a worker that died to be started again
+_NOISY = ("distributed", "distributed.client", "tornado.application")
+_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+class WorkersError(RuntimeError):
+    """No workers, or workers that cannot do it; the message says why."""
+
+
+@contextmanager
+def workers(scheduler, cases):
+    """Give a Dask `Client`: of the scheduler at an address, or, if that is None, of one process a core of this machine.
+
+    Raises
+    ------
+    FarmError
+        Nothing answers at the address, or workers that have no trackvib, or another version of it.
+    """
+    for name in _NOISY:
+        logging.getLogger(name).setLevel(logging.CRITICAL)  # an error that matters here is raised
+    if scheduler is None:
+        with _local(min(CPU_COUNT, cases)) as cluster, Client(cluster) as client:
+            yield client
+        return
+    _check_scheduler(scheduler)
+    with Client(scheduler, timeout=PATIENCE) as client:
+        _check_workers(client, scheduler)
+        yield client
+
+
+def results(client, vehicle, cases, run=drive):
+    """Yield each case with `run(vehicle, case)`, in the order in which workers finish them; raises as `finished`."""
+    for k, result in finished(client, run, [(vehicle, case) for case in cases]):
+        yield cases[k], result
+
+
+def finished(client, function, tasks):
+    """Yield the number of each task with `function(*task)`, in the order in which workers finish them.
+
+    Tasks of a worker that dies are done again by another one.
+
+    Raises
+    ------
+    FarmError
+        Scheduler or workers are gone, or cannot do it.
+    """
+    futures = client.map(function, *zip(*tasks, strict=True), pure=False)
+    number = {future: k for k, future in enumerate(futures)}
+    pending = set(futures)
+    try:
+        while pending:
+            done, pending = _next(client, pending)
+            for future in done:
+                yield number[future], future.result()
+    except CancelledError:
+        raise WorkersError("the Dask scheduler is gone") from None
+    except KilledWorker as error:
+        raise WorkersError(f"workers that take up a case die: {error}") from None
+    except ImportError as error:
+        raise WorkersError(f"a worker cannot load trackvib: {error}") from None
+
+
+def _next(client, pending):
+    """Wait until one of the futures is done; returns the sets of those done and not done."""
+    while True:
+        try:
+            return wait(pending, PATIENCE, "FIRST_COMPLETED")
+        except TimeoutError:
+            if not client.nthreads():
+                _wait_for_worker(client, LONG_PATIENCE)
+
+
+def _wait_for_worker(client, patience):
+    try:
+        client.wait_for_workers(1, patience)
+    except TimeoutError:
+        raise WorkersError(f"the Dask scheduler has had no worker for {patience:g} s") from None
+
+
+def _local(workers):
+    """Start a cluster whose processes leave signals to this one, which then ends them."""
+    # the tracker would let signals through again when it starts
+    resource_tracker.ensure_running()
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
+    try:
+        return LocalCluster(
+            n_workers=workers,
+            threads_per_worker=1,
+            memory_limit=None,
+            dashboard_address=None,
+            scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},  # any free port, for a page without dashboard
+            silence_logs=logging.CRITICAL,
+        )
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+
+
+def _check_scheduler(address):
+    """Ask who is there; a `Client` would wait for ever on a server that speaks another protocol."""
+
+    async def kind():
+        async with rpc(address) as server:
+            return (await server.identity())["type"]
+
+    try:
+        found = asyncio.run(asyncio.wait_for(kind(), PATIENCE))
+    except Exception:  # a foreign server's answer can be anything
+        found = None
+    if found != "Scheduler":
+        raise WorkersError(f"no Dask scheduler answers at {address!r} within {PATIENCE:g} s; use e.g. tcp://host:8786")
+
+
+def _check_workers(client, scheduler):
+    _wait_for_worker(client, PATIENCE)
+    here = program()
+    for worker, there in client.run(program, on_error="return").items():
+        if isinstance(there, Exception):
+            raise WorkersError(f"worker {worker} of {scheduler!r} cannot load trackvib: {there}")
+        if there != here:
+            raise WorkersError(f"worker {worker} of {scheduler!r} has another version of trackvib")

@@ -1,0 +1,95 @@
+"""The energy account of the MR mounts along a run, kept in every physics step.
+
+    work on a mount = dissipated + stored + exchanged
+
+A mount takes work from hull, powertrain and the displacement that the engine imposes. Its damping turns work into heat,
+its spring stores it, and where the current changes the stiffness of a deflected spring, energy goes to the magnetic
+field, or comes from there. As in `energy.py`, speeds belong to the middle of the steps and places to their ends. So the
+force of a step, as it acted, does its work at the mean of the speeds before and after it, and its damping turns work
+into heat at the same; the spring is looked at, and changes its stiffness, in the middle of the steps. What is then left
+over falls with the step squared.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..numerics.compiled import kernel
+from ..numerics.spatial import add, dot, load3, scale, store3, subtract
+from .mr_mounts import mount_axes, mount_deflection, mount_energy, mount_force
+
+
+class MountEnergyState(NamedTuple):
+    """What went where since `start_mount_energy`, left first, and what the next step needs of the last one."""
+
+    work: np.ndarray  # (2,) done on the mount, J
+    dissipated: np.ndarray  # (2,) J
+    stored: np.ndarray  # (2,) J
+    exchanged: np.ndarray  # (2,) given to the magnetic field, J
+    force: np.ndarray  # (2, 3) on the powertrain, N
+    damping: np.ndarray  # (2, 3) its part against the motion, N
+    speed: np.ndarray  # (2, 3) between the ends, without what is imposed, m/s
+    current: np.ndarray  # (2,) that the mount felt, A
+    imposed_rate: np.ndarray  # (1,) m/s
+    energy: np.ndarray  # (2,) of the spring, J
+
+
+class MountEnergy(NamedTuple):
+    """The account of both mounts together [J], as in `MountEnergyState`."""
+
+    work: float
+    dissipated: float
+    stored: float
+    exchanged: float
+
+    @property
+    def residual(self):
+        """What the account leaves over."""
+        return self.work - self.dissipated - self.stored - self.exchanged
+
+    @property
+    def error(self):
+        """The same as a share of the greatest part; 0 where nothing moves."""
+        greatest = max(map(abs, self))
+        return abs(self.residual) / greatest if greatest > 0.0 else 0.0
+
+
+def new_mount_energy_state():
+    """Return an account without a step."""
+    return MountEnergyState(*(np.zeros(shape) for shape in (2, 2, 2, 2, (2, 3), (2, 3), (2, 3), 2, 1, 2)))
+
+
+def start_mount_energy(account):
+    """Let the account begin at the step that was done last."""
+    for part in (account.work, account.dissipated, account.stored, account.exchanged):
+        part[:] = 0.0
+
+
+def mount_energy_account(account):
+    """Return the `MountEnergy` since `start_mount_energy`."""
+    parts = (account.work, account.dissipated, account.stored, account.exchanged)
+    return MountEnergy(*(float(part.sum()) for part in parts))
+
+
+@kernel
+def update_mount_energy(mounts, motion, currents, imposed, imposed_rate, dt, account):
+    """Book the last step [s], given what `add_mounts` has for the one that begins."""
+    for index in range(2):
+        _, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)
+        before, current = account.current[index], currents[index]
+        speed = add(l_d, (0.0, 0.0, imposed_rate))
+        mean = scale(0.5, add(load3(account.speed, index), speed))
+        mean = subtract(mean, (0.0, 0.0, account.imposed_rate[0]))
+        middle = subtract(l, scale(0.5 * dt, l_d))
+        left, energy = mount_energy(mounts, before, middle), mount_energy(mounts, current, middle)
+        account.work[index] -= dt * dot(load3(account.force, index), mean)
+        account.dissipated[index] += dt * dot(load3(account.damping, index), mean)
+        account.exchanged[index] += left - energy
+        account.stored[index] += energy - account.energy[index]
+        force, _ = mount_force(mounts, current, l, l_d)
+        _, c = mount_axes(mounts, current)
+        store3(account.force, index, force)
+        store3(account.damping, index, (c[0] * l_d[0], c[1] * l_d[1], c[2] * l_d[2]))
+        store3(account.speed, index, speed)
+        account.current[index], account.energy[index] = current, energy
+    account.imposed_rate[0] = imposed_rate
