@@ -76,7 +76,8 @@ def test_a_file_appears_only_when_it_is_whole(tmp_path):
 
 def test_every_module_that_a_drive_runs_makes_results_void():
     """What a fresh process imports for a drive is among the modules whose change is noticed."""
-    script = "import sys, trackvib_sim.studies.case; import trackvib_sim.studies.controllers.scenario; print(*sys.modules, sep='\\n')"
+    drives = "trackvib_sim.studies.case, trackvib_sim.studies.controllers.scenario"
+    script = f"import sys, {drives}; print(*sys.modules, sep='\\n')"
     names = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout.split()
     parts = [name.split(".")[1:] for name in names if name.startswith("trackvib_sim.")]
     ours = {str(PACKAGE.joinpath(*part)) + ".py" for part in parts if not PACKAGE.joinpath(*part).is_dir()}
