@@ -15,8 +15,8 @@ from trackvib_sim.vehicle.mr_mounts import (
     add_mounts,
     mount_characteristics,
     mount_deflection,
-    mount_energy,
     mount_force,
+    mount_stored_energy,
     new_mount_sample,
     observe_mounts,
 )
@@ -101,13 +101,14 @@ def test_elastic_force_is_the_slope_of_the_stored_energy(system, current, l):
     """At rest a mount pushes down the slope of its energy, which is zero at the unloaded place."""
     m, h = system.mounts, 1e-3
     slope = [
-        (mount_energy(m, current, tuple(l + step)) - mount_energy(m, current, tuple(l - step))) / (2.0 * h)
+        (mount_stored_energy(m, current, tuple(l + step)) - mount_stored_energy(m, current, tuple(l - step)))
+        / (2.0 * h)
         for step in h * np.eye(3)
     ]
     force, _ = mount_force(m, current, l, (0.0, 0.0, 0.0))
     # central differences are exact in a parabola; rounding of energies up to 1e5 J over 2 mm
     assert_allclose(force, np.negative(slope), rtol=0, atol=1e-6)
-    assert mount_energy(m, current, (0.0, 0.0, 0.0)) == 0.0
+    assert mount_stored_energy(m, current, (0.0, 0.0, 0.0)) == 0.0
 
 
 @pytest.mark.analytic

@@ -25,10 +25,10 @@ from ..rui.sweeps.tree import BodyOffset
 from .driver import add_driver
 from .engine import add_engine, imposed_displacement
 from .hinge_springs import add_hinge_springs
-from .mr_mounts import mount_deflection, mount_energy, mount_force
+from .mr_mounts import mount_deflection, mount_force, mount_stored_energy
 from .suspension import add_suspension
 from .system import new_state, new_work
-from .tracks.nodes import STRIDE, NodeOffset
+from .tracks.nodes import NodeOffset, STRIDE
 from .tracks.tracks import TRACK_PARTS, TrackPart, add_tracks
 
 
@@ -209,7 +209,7 @@ def _add_mounts(system, state, motion, account):
         current = state.coils.field[index]
         _, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)
         force, dissipation = mount_force(mounts, current, l, l_d)
-        account.stored[Part.MOUNTS] += mount_energy(mounts, current, l)
+        account.stored[Part.MOUNTS] += mount_stored_energy(mounts, current, l)
         account.dissipation[Part.MOUNTS] += dissipation
         account.given[Source.ENGINE] += force[2] * imposed_rate
 

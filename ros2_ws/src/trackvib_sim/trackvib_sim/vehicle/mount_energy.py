@@ -16,7 +16,7 @@ import numpy as np
 
 from ..numerics.compiled import kernel
 from ..numerics.spatial import add, dot, load3, scale, store3, subtract
-from .mr_mounts import mount_axes, mount_deflection, mount_energy, mount_force
+from .mr_mounts import mount_axes, mount_deflection, mount_force, mount_stored_energy
 
 
 class MountEnergyState(NamedTuple):
@@ -81,7 +81,7 @@ def update_mount_energy(mounts, motion, currents, imposed, imposed_rate, dt, acc
         mean = scale(0.5, add(load3(account.speed, index), speed))
         mean = subtract(mean, (0.0, 0.0, account.imposed_rate[0]))
         middle = subtract(l, scale(0.5 * dt, l_d))
-        left, energy = mount_energy(mounts, before, middle), mount_energy(mounts, current, middle)
+        left, energy = mount_stored_energy(mounts, before, middle), mount_stored_energy(mounts, current, middle)
         account.work[index] -= dt * dot(load3(account.force, index), mean)
         account.dissipated[index] += dt * dot(load3(account.damping, index), mean)
         account.exchanged[index] += left - energy

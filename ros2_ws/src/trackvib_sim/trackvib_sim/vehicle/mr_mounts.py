@@ -123,7 +123,7 @@ def mount_force(mounts, current, l, l_d):
 
 
 @kernel
-def mount_energy(mounts, current, l):
+def mount_stored_energy(mounts, current, l):
     """Return the energy [J] that one mount stores, its preload included; zero at its unloaded place."""
     k, _ = mount_axes(mounts, current)
     return 0.5 * (k[0] * l[0] ** 2 + k[1] * l[1] ** 2 + k[2] * l[2] ** 2) - mounts.static_load * l[2]

@@ -8,7 +8,7 @@ from scipy.signal import ShortTimeFFT
 from scipy.signal.windows import hann
 
 from ...numerics.units import NANO
-from ..numbers import SIDES, Analysis
+from ..numbers import Analysis, SIDES
 from ..segments import BLOCK, blocks
 from ..summary import AXES, SENSORS
 from .thinning import thinned
@@ -86,9 +86,7 @@ def build_report_data(recording, analysis):
             for sensor, inertial in sensors.items()
         },
         {
-            sensor: spectrogram(
-                times[sensor], inertial.specific_force[:, VERTICAL], analysis.rate, analysis.duration
-            )
+            sensor: spectrogram(times[sensor], inertial.specific_force[:, VERTICAL], analysis.rate, analysis.duration)
             for sensor, inertial in sensors.items()
         },
         currents,
