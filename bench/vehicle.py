@@ -13,7 +13,7 @@ from peers import PinocchioTree
 from rich.console import Console
 from rich.table import Table
 from trackvib_sim.data import default_vehicle_file
-from trackvib_sim.road.iso8608 import FADE, Iso8608Road, LEVEL_UNTIL
+from trackvib_sim.road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road
 from trackvib_sim.rui.state import rest_state
 from trackvib_sim.simulation.settings import Rates, RunSettings
 from trackvib_sim.simulation.simulation import Simulation

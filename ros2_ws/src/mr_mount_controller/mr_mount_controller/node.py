@@ -11,7 +11,7 @@ from trackvib_msgs.msg import CoilCurrent
 from .laws import find_law
 from .laws.base import LawError, Sample, answer
 from .node_base.loop_node import LoopNode, NodeError, run_node
-from .node_base.packed_message import MessageReader, NANO
+from .node_base.packed_message import NANO, MessageReader
 from .node_base.parameters import Parameter, ParameterError
 from .node_base.qos import LOOP_QOS, LOOP_WRITER_QOS
 

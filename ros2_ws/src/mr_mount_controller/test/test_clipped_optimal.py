@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 from mr_mount_controller.laws.clipped_optimal import (
-    ClippedOptimal,
     ENGINE_NOISE,
     ROAD_NOISE,
     SENSOR_NOISE,
+    ClippedOptimal,
     discrete_filter,
     kalman_gain,
     regulator_gain,

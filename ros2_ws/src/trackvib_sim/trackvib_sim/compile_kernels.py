@@ -4,7 +4,7 @@ from mr_mount_controller.laws.passive import Passive
 
 from .data import default_vehicle_file
 from .numerics.units import NANO
-from .road.iso8608 import FADE, Iso8608Road, LEVEL_UNTIL
+from .road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road
 from .simulation.closed_loop import run_closed_loop
 from .simulation.open_loop import run_open_loop
 from .simulation.settings import Rates, RunSettings

@@ -11,7 +11,7 @@ the body and ADD above it; acceleration^2 - w^2 velocity^2 tells on which side o
 from math import pi
 
 from ..node_base.parameters import Parameter
-from .semi_active import OnOffLaw, SEMI_ACTIVE
+from .semi_active import SEMI_ACTIVE, OnOffLaw
 
 CROSSOVER = Parameter("crossover", 10.0, "Frequency below which skyhook decides, above it ADD.", "Hz", 0.1, 200.0)
 

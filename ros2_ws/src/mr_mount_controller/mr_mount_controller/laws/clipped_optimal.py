@@ -14,7 +14,7 @@ from scipy.linalg import expm, solve, solve_continuous_are
 
 from ..mount import COIL_LAG, damping, stiffness
 from ..node_base.parameters import Parameter
-from .semi_active import DampingLaw, SEMI_ACTIVE
+from .semi_active import SEMI_ACTIVE, DampingLaw
 from .two_mount_model import DEFLECTION, two_mount_model
 
 TRAVEL = Parameter("travel", 3.0e-3, "Deflection that counts as much as 1 m/s^2 of the powertrain.", "m", 1.0e-4, 1.0)

@@ -5,7 +5,7 @@ import pytest
 from trackvib_sim.drawings.assembled_vehicle import assemble_vehicle
 from trackvib_sim.drawings.sprocket_drawing import free_entry, half_gap, tooth_profile
 from trackvib_sim.drawings.vehicle_picture import vehicle_picture
-from trackvib_sim.vehicle.tracks.nodes import NodeWorkOffset, STRIDE, new_node_work
+from trackvib_sim.vehicle.tracks.nodes import STRIDE, NodeWorkOffset, new_node_work
 from trackvib_sim.vehicle.tracks.sprockets import add_sprocket
 from trackvib_sim.vehicle.tracks.wheels import Hub, WheelLoadOffset
 

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_array_equal
 from trackvib_sim.road.feeder import BEHIND, PATCH, RoadFeeder
-from trackvib_sim.road.iso8608 import Iso8608Road, SPACING
+from trackvib_sim.road.iso8608 import SPACING, Iso8608Road
 from trackvib_sim.road.store import RoadStore
 
 REACH = 3.2  # m before and behind that a vehicle asks for

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_array_equal
 from scipy import signal
-from trackvib_sim.road.iso8608 import CLASSES, Iso8608Road, SPACING, coherence, roughness
+from trackvib_sim.road.iso8608 import CLASSES, SPACING, Iso8608Road, coherence, roughness
 
 LENGTH = 20_000  # samples, 1 km
 SEEDS = range(5)

@@ -6,7 +6,7 @@ from mr_mount_controller import mount
 from mr_mount_controller.law_tables import shipped_laws
 from mr_mount_controller.laws import find_law, two_mount_model
 from mr_mount_controller.laws.base import Sample
-from mr_mount_controller.laws.engine_speed import EngineSpeedEstimator, ORDERS, SPEEDS
+from mr_mount_controller.laws.engine_speed import ORDERS, SPEEDS, EngineSpeedEstimator
 from mr_mount_controller.laws.passive import Passive
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.closed_loop import run_closed_loop

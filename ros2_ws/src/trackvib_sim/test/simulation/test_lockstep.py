@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from trackvib_sim.simulation.lockstep import Lockstep, OUTCOMES
+from trackvib_sim.simulation.lockstep import OUTCOMES, Lockstep
 
 MS = 1_000_000
 USABLE = (0.7, 4.0)

@@ -10,7 +10,7 @@ from trackvib_sim.simulation.simulation import RunFailed, Simulation
 from trackvib_sim.simulation.step import LONGEST_FLIGHT
 from trackvib_sim.vehicle.system import Operation
 from trackvib_sim.vehicle.tracks.layout import sink
-from trackvib_sim.vehicle.tracks.nodes import NodeOffset, STRIDE
+from trackvib_sim.vehicle.tracks.nodes import STRIDE, NodeOffset
 from trackvib_sim.vehicle.tracks.wheels import ROAD_WHEELS
 
 pytestmark = pytest.mark.property

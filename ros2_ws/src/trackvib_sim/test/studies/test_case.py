@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from trackvib_sim.analysis.vibration import rms
-from trackvib_sim.studies.case import Case, PROBES, RATES, drive, prepare, probes, record, settling
+from trackvib_sim.studies.case import PROBES, RATES, Case, drive, prepare, probes, record, settling
 
 pytestmark = pytest.mark.property
 

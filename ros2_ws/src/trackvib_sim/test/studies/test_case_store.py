@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 from trackvib_sim.studies.case import Case, Result
-from trackvib_sim.studies.case_store import CaseStore, DECISIVE, PACKAGE, whole_file
+from trackvib_sim.studies.case_store import DECISIVE, PACKAGE, CaseStore, whole_file
 
 pytestmark = pytest.mark.property
 

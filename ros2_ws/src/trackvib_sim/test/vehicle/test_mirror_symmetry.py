@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation import run_in
 from trackvib_sim.simulation.open_loop import run_open_loop
-from trackvib_sim.vehicle.tracks.nodes import NodeOffset, STRIDE
+from trackvib_sim.vehicle.tracks.nodes import STRIDE, NodeOffset
 
 pytestmark = pytest.mark.property
 

@@ -10,7 +10,7 @@ from trackvib_sim.rui.sweeps.kinematics import MotionOffset
 from trackvib_sim.simulation.open_loop import run_open_loop
 from trackvib_sim.vehicle.body_tree import GRAVITY
 from trackvib_sim.vehicle.equilibrium import static_equilibrium
-from trackvib_sim.vehicle.tracks.nodes import NodeOffset, NodeWorkOffset, STRIDE
+from trackvib_sim.vehicle.tracks.nodes import STRIDE, NodeOffset, NodeWorkOffset
 from trackvib_sim.vehicle.tracks.tracks import add_tracks, new_track_work
 
 RESTING = 12_000  # periods; to and fro on its tracks the vehicle swings with hardly any damping

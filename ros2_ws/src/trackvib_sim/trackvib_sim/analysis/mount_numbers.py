@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..numerics.units import NANO
-from .numbers import Current, MountAxis, MountNumbers, SIDES
+from .numbers import SIDES, Current, MountAxis, MountNumbers
 from .segments import BLOCK, TOLERANCE, blocks, period_of
 from .summary import AXES
 

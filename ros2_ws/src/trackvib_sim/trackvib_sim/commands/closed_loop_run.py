@@ -19,7 +19,7 @@ from ..analysis.settling import settling_time
 from ..analysis.summary import AXES, SENSORS, SHORTEST_MEASURING, prepare, summarise
 from ..bags.errors import BagError
 from ..bags.reading import read_recording
-from ..nodes.processes import FOUR_PROCESSES, LoopProcesses, ONE_PROCESS, closed_loop_parameters
+from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses, closed_loop_parameters
 from ..nodes.road_excitation import PARAMETERS as ROAD_PARAMETERS
 from ..nodes.watch import Watch
 from ..vehicle.mount_energy import MountEnergy

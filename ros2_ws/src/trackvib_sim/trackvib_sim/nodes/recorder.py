@@ -15,7 +15,7 @@ from rclpy.serialization import deserialize_message
 from ..bags.errors import BagError
 from ..bags.provenance import write_parameters, write_versions
 from ..bags.timekeeping import Timekeeping
-from ..bags.writing import BagWriter, COMPRESSIONS
+from ..bags.writing import COMPRESSIONS, BagWriter
 from ..numerics.units import NANO
 from .messages import message_type
 from .provenance import is_known, parameters_of, publishing_nodes

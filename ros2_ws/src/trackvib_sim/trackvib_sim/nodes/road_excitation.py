@@ -10,7 +10,7 @@ from nav_msgs.msg import Odometry
 from trackvib_msgs.msg import RoadProfile
 
 from ..road.feeder import RoadFeeder
-from ..road.iso8608 import CLASSES, FADE, Iso8608Road, LEVEL_UNTIL
+from ..road.iso8608 import CLASSES, FADE, LEVEL_UNTIL, Iso8608Road
 
 PARAMETERS = (
     Parameter("road_class", "E", "Class of the road by ISO 8608.", choices=tuple(CLASSES)),

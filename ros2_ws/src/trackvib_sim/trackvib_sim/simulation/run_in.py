@@ -8,7 +8,7 @@ from ..vehicle.engine import angle_before
 from ..vehicle.mount_energy import start_mount_energy
 from ..vehicle.system import new_state, new_work
 from ..vehicle.tracks.initial import assemble_tracks
-from ..vehicle.tracks.nodes import NodeOffset, STRIDE
+from ..vehicle.tracks.nodes import STRIDE, NodeOffset
 from .step import REASONS, Sensors, Status, advance, new_sample
 
 DURATION = 3.0  # s; the slowest motion, of the driver's speed control, has a time constant of 0.9 s

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..analysis.settling import settling_time
 from ..analysis.vibration import band, band_limited, rms
-from ..road.iso8608 import FADE, Iso8608Road, LEVEL_UNTIL
+from ..road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road
 from ..simulation.open_loop import run_open_loop
 from ..simulation.run_in import CannotRoll
 from ..simulation.settings import Rates, RunSettings

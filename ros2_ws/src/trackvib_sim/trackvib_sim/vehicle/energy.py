@@ -28,7 +28,7 @@ from .hinge_springs import add_hinge_springs
 from .mr_mounts import mount_deflection, mount_force, mount_stored_energy
 from .suspension import add_suspension
 from .system import new_state, new_work
-from .tracks.nodes import NodeOffset, STRIDE
+from .tracks.nodes import STRIDE, NodeOffset
 from .tracks.tracks import TRACK_PARTS, TrackPart, add_tracks
 
 

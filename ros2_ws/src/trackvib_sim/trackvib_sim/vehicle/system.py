@@ -19,7 +19,7 @@ from .mount_energy import MountEnergyState, new_mount_energy_state
 from .mr_mounts import MrMounts, build_mr_mounts
 from .supports import Supports, build_supports
 from .suspension import Suspension, build_suspension
-from .tracks.tracks import TrackState, TrackWork, Tracks, build_tracks, new_track_state, new_track_work
+from .tracks.tracks import Tracks, TrackState, TrackWork, build_tracks, new_track_state, new_track_work
 
 SPRUNG = ("hull", "turret", "gun_mount", "recoil_part", "powertrain")
 

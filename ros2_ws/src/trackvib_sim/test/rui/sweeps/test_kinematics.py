@@ -12,7 +12,7 @@ from trackvib_sim.rui.sweeps.cells import columns
 from trackvib_sim.rui.sweeps.integrator import integrate
 from trackvib_sim.rui.sweeps.kinematics import MotionOffset, body_axes, point_place, point_velocity
 from trackvib_sim.rui.sweeps.riccati import ResponseOffset, new_response
-from trackvib_sim.rui.sweeps.tree import BodyOffset, LANES, build_tree, rest_lanes, to_lanes, to_table
+from trackvib_sim.rui.sweeps.tree import LANES, BodyOffset, build_tree, rest_lanes, to_lanes, to_table
 
 SEEDS = st.integers(0, 2**32 - 1)
 FEW = settings(max_examples=20)

@@ -12,12 +12,12 @@ from trackvib_sim.studies.case_store import CaseStore
 from trackvib_sim.studies.controllers.picture import controllers_picture
 from trackvib_sim.studies.controllers.report import report
 from trackvib_sim.studies.controllers.scenario import (
-    ControlCase,
-    ControlResult,
     GOOD,
     PASSIVE,
     QUANTITIES,
     SCENARIOS,
+    ControlCase,
+    ControlResult,
     control,
 )
 from trackvib_sim.studies.controllers.study import GRID, cases, controllers

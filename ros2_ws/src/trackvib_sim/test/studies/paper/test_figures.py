@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from trackvib_sim.studies.case import Case, Drive, GOOD, PROBES, RATES, Result
+from trackvib_sim.studies.case import GOOD, PROBES, RATES, Case, Drive, Result
 from trackvib_sim.studies.paper.figures import CLASSES, SEED, SHOWN, SPEEDS, TRACK_PHASE, draw
 from trackvib_sim.studies.paper.second_solver import Comparison
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import trapezoid
-from trackvib_sim.road.iso8608 import Iso8608Road, SPACING
+from trackvib_sim.road.iso8608 import SPACING, Iso8608Road
 from trackvib_sim.road.store import Road
 from trackvib_sim.rui.sweeps.tree import to_lanes
 from trackvib_sim.vehicle.energy import EnergyMeter, Part, Source, energy

@@ -18,7 +18,7 @@ from trackvib_sim.rui.sweeps.cells import columns
 from trackvib_sim.rui.sweeps.kinematics import MotionOffset, update_motion
 from trackvib_sim.vehicle.system import new_state, new_work
 from trackvib_sim.vehicle.tracks.initial import assemble_tracks
-from trackvib_sim.vehicle.tracks.nodes import NodeOffset, NodeWorkOffset, STRIDE
+from trackvib_sim.vehicle.tracks.nodes import STRIDE, NodeOffset, NodeWorkOffset
 from trackvib_sim.vehicle.tracks.tracks import TrackPart, add_tracks
 
 from .momentum import momentum, shoes

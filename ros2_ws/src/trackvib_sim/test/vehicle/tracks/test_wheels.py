@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from trackvib_sim.vehicle.tracks.nodes import NodeWorkOffset, close_chain, new_node_work
-from trackvib_sim.vehicle.tracks.wheels import Hub, ROAD_WHEELS, WheelLoadOffset, add_wheel, find_link
+from trackvib_sim.vehicle.tracks.wheels import ROAD_WHEELS, Hub, WheelLoadOffset, add_wheel, find_link
 
 from .momentum import shoes
 

@@ -4,7 +4,7 @@ from math import isclose, isfinite, nan
 
 from ..numbers import SIDES
 from ..summary import AXES, SENSORS
-from .tables import MOUNT, Table, UNITS, WORDS, change, number
+from .tables import MOUNT, UNITS, WORDS, Table, change, number
 
 _PLACES = [(sensor, axis) for sensor in reversed(SENSORS) for axis in AXES]
 

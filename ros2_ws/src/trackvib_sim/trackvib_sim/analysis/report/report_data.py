@@ -8,7 +8,7 @@ from scipy.signal import ShortTimeFFT
 from scipy.signal.windows import hann
 
 from ...numerics.units import NANO
-from ..numbers import Analysis, SIDES
+from ..numbers import SIDES, Analysis
 from ..segments import BLOCK, blocks
 from ..summary import AXES, SENSORS
 from .thinning import thinned

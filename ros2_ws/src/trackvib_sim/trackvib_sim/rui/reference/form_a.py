@@ -19,7 +19,7 @@ import numpy as np
 from scipy.linalg import lu_factor, lu_solve
 
 from ..state import Accelerations
-from .elements import A, AL, M, ONE, Q
+from .elements import AL, ONE, A, M, Q
 from .matrices import TableMatrices, table_matrices
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..case import Case, GOOD
+from ..case import GOOD, Case
 from ..paper.paper_table import COLUMNS, PAPER_AXES, SENSORS
 
 FIRST_SEED = 1001  # of roads; `study table1`, which checks the result, has others

@@ -12,7 +12,7 @@ from ...analysis.settling import SHORTEST_SETTLING, VEHICLE_BEHIND, settling_tim
 from ...analysis.vibration import band_limited, rms
 from ...numerics.units import NANO
 from ...road.bump import Bump
-from ...road.iso8608 import FADE, Iso8608Road, LEVEL_UNTIL
+from ...road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road
 from ...simulation.closed_loop import run_closed_loop
 from ...simulation.run_in import CannotRoll
 from ...simulation.settings import RunSettings

@@ -17,7 +17,7 @@ from ..paper.table1 import track_phase
 from ..run_missing import run_missing
 from .picture import controllers_picture
 from .report import report
-from .scenario import ControlCase, ControlResult, PASSIVE, PASSIVE_CURRENT, SCENARIOS, control
+from .scenario import PASSIVE, PASSIVE_CURRENT, SCENARIOS, ControlCase, ControlResult, control
 from .table import table_rows, verdict, write_table
 
 GRID = (0.7, 0.8, 0.9, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0)  # A, over which the best constant current is searched

@@ -12,7 +12,7 @@ from ...road.iso8608 import FADE, Iso8608Road
 from ...simulation.simulation import RunFailed
 from ...vehicle.engine import IMPOSED_ORDER
 from ...vehicle.vehicle_file import read_vehicle
-from ..case import BAND, Case, ENGINE_SPEED, RATES
+from ..case import BAND, ENGINE_SPEED, RATES, Case
 from ..case_store import CaseStore, whole_file
 from ..run_missing import run_missing
 from . import paper_figures

@@ -10,7 +10,7 @@ from rich.table import Table
 
 from ...data import default_vehicle_file, paper_table_file
 from ...vehicle.vehicle_file import read_vehicle
-from ..case import BAND, Case, GOOD
+from ..case import BAND, GOOD, Case
 from ..case_store import CaseStore, whole_file
 from ..run_missing import run_missing
 from .paper_table import error_factor, given, read_table, table_rows, write_table

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...numerics.compiled import kernel
-from .nodes import NodeOffset, NodeWorkOffset, STRIDE
+from .nodes import STRIDE, NodeOffset, NodeWorkOffset
 
 LEAST = 1e-9  # N, against division by zero where a shoe is not pulled at all
 

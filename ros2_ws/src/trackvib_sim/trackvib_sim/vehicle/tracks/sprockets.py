@@ -14,7 +14,7 @@ import numpy as np
 
 from ...numerics.compiled import inlined, kernel
 from ..body_tree import SIDES, SPROCKET
-from .nodes import NodeWorkOffset, STRIDE
+from .nodes import STRIDE, NodeWorkOffset
 from .wheels import MOST_MOVES, WheelLoadOffset, add_reaction
 
 

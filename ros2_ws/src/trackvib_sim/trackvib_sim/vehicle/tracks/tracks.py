@@ -11,7 +11,7 @@ from ...rui.sweeps.articulated import apply_wrench
 from ...rui.sweeps.kinematics import MotionOffset, motion_vector, rotation
 from .ground import Ground, add_ground, build_ground, road_height
 from .layout import fit_idler, idler_load
-from .nodes import Chain, STRIDE, add_links, build_chain, move_nodes, new_node_work, new_nodes, see_from_hull
+from .nodes import STRIDE, Chain, add_links, build_chain, move_nodes, new_node_work, new_nodes, see_from_hull
 from .sprockets import Sprockets, add_sprocket, build_sprockets, find_rear
 from .tensioner import Tensioner, TensionerState, build_tensioner, move_tensioner, tensioner_energy
 from .wheels import IDLERS, ROAD_WHEELS, WheelLoadOffset, Wheels, add_wheel, build_wheels, find_link, hub_of, push_body

@@ -16,7 +16,7 @@ from ...numerics.spatial import cross, dot, rotate, subtract, vector
 from ...rui.sweeps.articulated import apply_wrench
 from ...rui.sweeps.kinematics import MotionOffset, body_axes, motion_vector, rotation
 from ..body_tree import IDLER, ROLLER, SIDES, STATIONS, wheel_name
-from .nodes import NodeWorkOffset, STRIDE
+from .nodes import STRIDE, NodeWorkOffset
 
 ROAD_WHEELS, ROLLERS, IDLERS = 1.0, -1.0, 0.0  # sign of x along the chain where the wheel touches it; 0: its front end
 CREEP = 0.25  # m/s, slip at which friction has 71 % of its limit; less is stiff against a shoe in steps of 1e-4 s
