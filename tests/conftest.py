@@ -117,14 +117,24 @@ def domain():
 
 @pytest.fixture(scope="session")
 def recorded_run(tmp_path_factory):
-    """The folder of one `trackvib run` under skyhook, shared by all tests that only read it."""
-    folder = tmp_path_factory.mktemp("recorded") / "run"
+    """The folder of one `trackvib run` under skyhook, shared by all tests that only read it, on all cores."""
+    base = tmp_path_factory.getbasetemp()
+    folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "recorded_run"
+    with folder.with_suffix(".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not folder.exists():
+            _record_run(folder)
+    return folder
+
+
+def _record_run(folder):
     command = [sys.executable, "-m", "trackvib_sim.cli", "run", "--law", "skyhook", "--duration", "3.2"]
     with free_domain() as number:
         env = {**os.environ, "ROS_DOMAIN_ID": str(number)}
-        done = subprocess.run([*command, "--out", str(folder)], env=env, capture_output=True, text=True, timeout=300)
+        made = folder.with_suffix(".new")
+        done = subprocess.run([*command, "--out", str(made)], env=env, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stdout + done.stderr
-    return folder
+    made.rename(folder)
 
 
 @pytest.fixture

@@ -14,7 +14,7 @@ from trackvib_sim.simulation.simulation import Simulation
 from trackvib_sim.vehicle.system import Operation
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
-pytestmark = pytest.mark.system
+pytestmark = [pytest.mark.system, pytest.mark.slow(reason="each law drives three whole loops")]
 
 SAMPLES = 1000
 ROAD = {"road_class": "E", "seed": 1, "level_until": 1.0, "fade": 1.0}

@@ -10,6 +10,7 @@ from trackvib_sim.bags.writing import BagWriter
 from trackvib_sim.nodes.messages import ImuMessage
 
 pytestmark = pytest.mark.system
+SLOW = pytest.mark.slow(reason="each case starts the command line")
 
 
 @pytest.fixture
@@ -26,6 +27,7 @@ def bag(tmp_path):
     return tmp_path / "drive"
 
 
+@SLOW
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -52,6 +54,7 @@ def test_bad_input_is_refused(start_cli, tmp_path, arguments, words):
     assert not (tmp_path / "new").exists() and set(before) <= set(tmp_path.iterdir())
 
 
+@SLOW
 def test_a_bag_of_sensors_alone(start_cli, tmp_path, bag):
     """What is not in it is said once; there are no numbers that are none, no empty tables, and no worries."""
     analyze = start_cli("analyze", bag, "--out", "new")
@@ -81,6 +84,7 @@ def test_help_speaks_of_the_report(start_cli):
     assert "HTML report" in analyze.output and "2 or more" in analyze.output
 
 
+@SLOW
 def test_brackets_in_a_path_are_printed(start_cli, tmp_path, bag):
     """They are no commands to whatever prints."""
     (tmp_path / "runs[old]").mkdir()
@@ -90,6 +94,7 @@ def test_brackets_in_a_path_are_printed(start_cli, tmp_path, bag):
     assert "bag 1: runs[old]/drive: " in analyze.output and "left in new[bold]: " in analyze.output
 
 
+@SLOW
 def test_a_folder_and_its_file_are_one_bag(start_cli, tmp_path, bag):
     """Refused before anything is read, and nothing is left."""
     (file,) = bag.glob("*.mcap")

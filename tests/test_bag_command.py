@@ -7,6 +7,7 @@ from trackvib_sim.bags.writing import BagWriter
 from trackvib_sim.nodes.messages import ImuMessage
 
 pytestmark = pytest.mark.system
+SLOW = pytest.mark.slow(reason="each case starts the command line")
 
 MESSAGES = 500
 FILE = "drive_0.mcap"
@@ -45,6 +46,7 @@ def test_info(command, bag):
         assert words in output
 
 
+@SLOW
 def test_cut_bag_is_repaired_once(command, bag):
     """It is named by `info`, completed by `repair`, with the file as it was kept, and sound then."""
     data = (bag / FILE).read_bytes()
@@ -61,6 +63,7 @@ def test_cut_bag_is_repaired_once(command, bag):
     assert code == 0 and "500" in output
 
 
+@SLOW
 def test_nonsense_is_refused(command, tmp_path):
     """A folder without bag, a file, and nothing at all: one error that names it, and nothing is made."""
     (tmp_path / "empty").mkdir()

@@ -9,7 +9,7 @@ import yaml
 from trackvib_sim.data import default_vehicle_file
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
-pytestmark = pytest.mark.system
+pytestmark = [pytest.mark.system, pytest.mark.slow(reason="searches over many drives")]
 
 PNG = b"\x89PNG\r\n\x1a\n"
 BOUNDS = {"tracks.pretension": (1e4, 3e4), "sprockets.z[0]": (0.72, 0.77)}

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 pytestmark = pytest.mark.system
+SLOW = pytest.mark.slow(reason="each controller is a loop of real processes")
 
 README = Path(__file__).parents[1] / "README.md"
 LAW = '''
@@ -50,6 +51,7 @@ def test_ten_lines_of_the_readme(start, start_node, tmp_path):
     assert "answers: 500 accepted" in simulator.output
 
 
+@SLOW
 def test_own_law_in_a_whole_run(start, tmp_path):
     """`PYTHONPATH=. ./trackvib run --law module:Class` finds a law beside the user, as the README says."""
     (tmp_path / "my_laws.py").write_text(LAW)
@@ -60,6 +62,7 @@ def test_own_law_in_a_whole_run(start, tmp_path):
     assert "law my_laws:Mine" in run.output
 
 
+@SLOW
 def test_own_law_on_the_stock_node(my_laws, start_node):
     """`law:=module:Class` runs a law from anywhere, with its own parameters."""
     start_node("road_excitation")
@@ -69,6 +72,7 @@ def test_own_law_on_the_stock_node(my_laws, start_node):
     assert "law 'my_laws:Mine'" in controller.output
 
 
+@SLOW
 def test_law_that_answers_nonsense_ends_its_node(my_laws, start_node):
     """The controller says what the law answered and when, and ends with an error; the loop is told nothing."""
     start_node("road_excitation")

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-pytestmark = pytest.mark.system
+pytestmark = [pytest.mark.system, pytest.mark.slow(reason="builds and installs a package")]
 
 DOCUMENT = Path(__file__).parents[1] / "docs" / "controllers.md"
 EXAMPLE = DOCUMENT.parent / "examples" / "my_controller"

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from trackvib_sim.bags.reading import read_recording
 
-pytestmark = pytest.mark.system
+pytestmark = [pytest.mark.system, pytest.mark.slow(reason="each fault is a loop of real processes that waits")]
 
 CONTROLLERS = Path(__file__).parent / "controllers"
 PROPER = 2.0  # A, what the unruly controller answers properly

@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-pytestmark = pytest.mark.system
+pytestmark = [pytest.mark.system, pytest.mark.slow(reason="draws four drives and their second solver")]
 
 PNG = b"\x89PNG\r\n\x1a\n"
 PICTURES = ("road.png", "histories.png", "spectra.png", "levels.png", "solvers.png")

@@ -8,7 +8,7 @@ import pytest
 import yaml
 from trackvib_sim.bags.reading import read_recording
 
-pytestmark = pytest.mark.system
+pytestmark = [pytest.mark.system, pytest.mark.slow(reason="starts whole runs to end them")]
 
 
 def wait_for_text(path, text):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-pytestmark = pytest.mark.system
+pytestmark = [pytest.mark.system, pytest.mark.slow(reason="each fault is a loop of real processes that waits")]
 
 UNRULY = Path(__file__).parent / "controllers" / "unruly.py"
 

@@ -5,6 +5,7 @@ import re
 import pytest
 
 pytestmark = pytest.mark.system
+SLOW = pytest.mark.slow(reason="each case starts the command line")
 
 PNG = b"\x89PNG\r\n\x1a\n"
 
@@ -35,6 +36,7 @@ def test_prints_a_table_and_draws(modes, tmp_path):
     assert [path.name for path in tmp_path.rglob("*.png")] == ["shapes.png"]
 
 
+@SLOW
 def test_leaves_its_picture_where_the_user_stands(modes, tmp_path):
     """Without options it works from any directory, and its picture is there."""
     code, output = modes()
@@ -43,6 +45,7 @@ def test_leaves_its_picture_where_the_user_stands(modes, tmp_path):
     assert (tmp_path / "modes.png").read_bytes().startswith(PNG)
 
 
+@SLOW
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

@@ -7,6 +7,7 @@ import time
 import pytest
 
 pytestmark = pytest.mark.system
+SLOW = pytest.mark.slow(reason="starts nodes in every order")
 
 WAITING = {
     "simulator": "waiting for a road",
@@ -16,6 +17,7 @@ WAITING = {
 }
 
 
+@SLOW
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 @pytest.mark.parametrize("name", WAITING)
 def test_waits_and_ends_cleanly(start_node, tmp_path, name, number):
@@ -29,6 +31,7 @@ def test_waits_and_ends_cleanly(start_node, tmp_path, name, number):
     assert "Traceback" not in node.output
 
 
+@SLOW
 @pytest.mark.parametrize(
     ("name", "parameters", "words"),
     [
@@ -63,6 +66,7 @@ def test_bad_parameter_is_refused_by_name(start_node, tmp_path, name, parameters
     assert list(tmp_path.glob("bag*")) == []
 
 
+@SLOW
 @pytest.mark.parametrize("order", list(itertools.permutations(("simulator", "road_excitation", "controller"))))
 def test_any_start_order(start_node, order):
     """Whatever starts first, the loop runs; each node is waited for before the next starts."""
@@ -75,6 +79,7 @@ def test_any_start_order(start_node, order):
     assert "0.3 s simulated" in nodes["simulator"].output
 
 
+@SLOW
 def test_two_simulators_do_not_mix(start_node):
     """A second simulator in the same domain says so and ends; the first goes on."""
     start_node("road_excitation")
@@ -88,6 +93,7 @@ def test_two_simulators_do_not_mix(start_node):
     assert first.running
 
 
+@SLOW
 def test_names_can_be_remapped_into_a_namespace(start_node, tmp_path):
     """All nodes in one namespace find each other."""
     inside = ("--ros-args", "-r", "__ns:=/left_lab", "--")

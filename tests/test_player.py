@@ -14,6 +14,7 @@ from std_msgs.msg import String
 from trackvib_msgs.msg import RoadProfile
 
 pytestmark = pytest.mark.system
+SLOW = pytest.mark.slow(reason="plays bags to real subscribers")
 
 DEEP = QoSProfile(depth=5000)
 MS = 1_000_000  # ns
@@ -35,6 +36,7 @@ def stamps(messages):
     return [leading_stamp(data) // MS for data in messages]
 
 
+@SLOW
 def test_every_byte_arrives_again(start_node, observer, bag):
     """In order; and the clock runs along, up to the last stamp."""
     imu = observer.collect(Imu, "chassis/imu", DEEP)
@@ -60,6 +62,7 @@ def test_late_joiners_get_what_was_latched(start_node, observer, bag):
     assert road == recorded(bag, "/road_profile")[: len(road)]
 
 
+@SLOW
 def test_names_can_be_remapped(start_node, observer, bag):
     """By ROS's own rules: one topic to another name, everything into a namespace."""
     other = observer.collect(Imu, "/twin/body/imu", DEEP)
@@ -71,6 +74,7 @@ def test_names_can_be_remapped(start_node, observer, bag):
     assert other == recorded(bag, "/chassis/imu")[:500]
 
 
+@SLOW
 def test_stretch_pace_and_choice(start_node, observer, bag):
     """From start to end, not faster than the rate says, and only the chosen topics."""
     imu = observer.collect(Imu, "chassis/imu", DEEP)
@@ -85,6 +89,7 @@ def test_stretch_pace_and_choice(start_node, observer, bag):
     assert not unwanted
 
 
+@SLOW
 def test_loop_until_ctrl_c(start_node, observer, bag):
     """Stamps begin again and again; Ctrl-C ends it cleanly."""
     imu = observer.collect(Imu, "chassis/imu", DEEP)
@@ -95,6 +100,7 @@ def test_loop_until_ctrl_c(start_node, observer, bag):
     assert stamps(imu[:402]) == 2 * list(range(1000, 1201))
 
 
+@SLOW
 def test_pause_step_resume_reset(start_node, observer, bag):
     """Services are those of the simulator; a step is one instant of the bag."""
     imu = observer.collect(Imu, "chassis/imu", DEEP)
@@ -119,6 +125,7 @@ def test_pause_step_resume_reset(start_node, observer, bag):
     assert player.wait() == 0, player.output
 
 
+@SLOW
 def test_a_killed_player_leaves_the_bag_as_it_was(start_node, observer, bag):
     """And the next one plays it."""
     before = {path: path.read_bytes() for path in bag.iterdir()}
@@ -134,6 +141,7 @@ def test_a_killed_player_leaves_the_bag_as_it_was(start_node, observer, bag):
     assert stamps(imu[:3]) == [1, 2, 3]
 
 
+@SLOW
 @pytest.mark.parametrize(
     ("given", "code", "words"),
     [
@@ -153,6 +161,7 @@ def test_bad_input(start_node, bag, given, code, words):
     assert words in player.output and "Traceback" not in player.output
 
 
+@SLOW
 @pytest.mark.parametrize("content", [b"", b"nonsense", b"cut"])
 def test_a_bag_that_cannot_be_read(start_node, bag, tmp_path, content):
     """Nonsense, and a bag without its end, which wants repair."""

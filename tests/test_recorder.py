@@ -33,6 +33,7 @@ LOOP_TOPICS = ("/chassis/imu", "/powertrain/imu", "/coil_current", "/mount_state
 SECOND, MS = 1_000_000_000, 1_000_000  # ns
 
 pytestmark = pytest.mark.system
+SLOW = pytest.mark.slow(reason="kills real recorders, fills disks")
 
 
 def counted(bag, topic):
@@ -49,6 +50,7 @@ def last_words(process):
     return process.output[process.output.index("error:") :]
 
 
+@SLOW
 @pytest.mark.parametrize(("seconds", "compression"), [(0.0, "zstd"), (0.3, "none"), (1.6, "zstd"), (2.5, "none")])
 def test_killed_recorder_loses_the_last_second_at_most(start, start_node, observer, tmp_path, seconds, compression):
     """What it had taken a second before the kill is in the repaired bag, and nothing is missing between."""
@@ -79,6 +81,7 @@ def test_killed_recorder_loses_the_last_second_at_most(start, start_node, observ
         assert stamps[0] < began and stamps[-1] >= max(until for when, until in told if when < killed - SECOND)
 
 
+@SLOW
 def test_killed_recorder_of_the_loop(start_node, observer, tmp_path):
     """The bag of a loop whose recorder was killed has its provenance, and every topic from the first sample on."""
     start_node("road_excitation")
@@ -111,6 +114,7 @@ def small_disk(tmp_path):
         yield folder, ["env", "FASTDDS_BUILTIN_TRANSPORTS=UDPv4", "prlimit", "--fsize=300000"], "File too large"
 
 
+@SLOW
 def test_full_disk(start, start_node, small_disk, tmp_path):
     """One error, an exit code, and what was written can be repaired elsewhere."""
     disk, before, words = small_disk
@@ -144,6 +148,7 @@ def test_disk_that_is_full_at_the_start(start_node, small_disk, tmp_path):
     assert not (disk / "bag").exists()
 
 
+@SLOW
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_messages_that_never_cease_do_not_keep_it_alive(start, start_node, tmp_path, number):
     """Asked to end, it does while they go on; the bag is whole."""
@@ -159,6 +164,7 @@ def test_messages_that_never_cease_do_not_keep_it_alive(start, start_node, tmp_p
         np.testing.assert_array_equal(np.diff(counted(tmp_path / "bag", topic)[1]), 1.0)
 
 
+@SLOW
 def test_topics_by_pattern_are_taken_up_when_they_appear(start, start_node, tmp_path):
     """Those that are there at the start, and later ones from their first sight on; no others."""
     start([sys.executable, STREAM, "left/imu", "left/other"])
@@ -177,6 +183,7 @@ def test_topics_by_pattern_are_taken_up_when_they_appear(start, start_node, tmp_
     assert found.provenance.count("parameters of /imu_stream") == 1
 
 
+@SLOW
 def test_bag_says_what_made_it(start_node, start, tmp_path):
     """Vehicle file and parameters lie in it as files; the parameters start the same nodes again."""
     start_node("road_excitation", seed=7, road_class="C")
@@ -198,6 +205,7 @@ def test_bag_says_what_made_it(start_node, start, tmp_path):
     again.wait_for("law 'skyhook', waiting for accelerations")
 
 
+@SLOW
 def test_progress_is_that_of_the_slowest_topic(start_node, observer, tmp_path):
     """A recorder that has all accelerations but lacks mount states tells how far it has both."""
     node = observer.node

@@ -25,7 +25,7 @@ from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
 from .bag_helpers import attachment
 
-pytestmark = pytest.mark.system
+pytestmark = [pytest.mark.system, pytest.mark.slow(reason="drives runs again under other laws and controllers")]
 
 
 def files(folder):

@@ -12,6 +12,7 @@ from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.commands.replay_verify import verify
 
 pytestmark = pytest.mark.system
+SLOW = pytest.mark.slow(reason="drives whole runs again")
 
 STAMP = 2_000_000_000  # ns, of the message that is spoilt
 
@@ -54,6 +55,7 @@ def test_one_bit_is_found(edited, topic, byte, mask, words):
     assert not identical and verdict.startswith(f"different: {words}"), verdict
 
 
+@SLOW
 def test_a_difference_is_told_by_exit_code(start_cli, edited):
     """Of the command: exit code 1 and one line."""
 
@@ -65,6 +67,7 @@ def test_a_difference_is_told_by_exit_code(start_cli, edited):
     assert "different: at t = 2.000 s dissipated_power.right of /mount_state is" in replay.output
 
 
+@SLOW
 def test_a_bag_that_is_cut_short(recorded_run, tmp_path):
     """What there is of it is verified, and it is said that there is no more."""
     bag = tmp_path / "cut"
@@ -76,6 +79,7 @@ def test_a_bag_that_is_cut_short(recorded_run, tmp_path):
     assert identical and "cut short" in verdict
 
 
+@SLOW
 def test_lost_samples_do_not_hide_the_others(edited):
     """A message that is not in the bag is not compared; those after it are."""
     bag = edited(lambda topic, data: None if topic == "/chassis/imu" and leading_stamp(data) == STAMP else data)
@@ -91,6 +95,7 @@ def told(name, key, value):
     return {"provenance": lambda at, values: values | {key: value} if at == name else values}
 
 
+@SLOW
 @pytest.mark.parametrize(
     ("edit", "words"),
     [
@@ -114,6 +119,7 @@ def test_what_cannot_be_verified(edited, edit, words):
         check(bag)
 
 
+@SLOW
 def test_a_missing_answer_is_no_silence(edited):
     """An answer that was lost on its way into the bag ends the verification there, and says how far it went."""
     bag = edited(lambda topic, data: None if topic == "/coil_current" and leading_stamp(data) == STAMP else data)
@@ -121,12 +127,14 @@ def test_a_missing_answer_is_no_silence(edited):
         check(bag)
 
 
+@SLOW
 def test_other_versions_are_named(edited):
     """They are a note; the verdict is about the bits."""
     identical, verdict = check(edited(**told("versions", "numpy", "1.0")))
     assert identical and "made with numpy 1.0 (here" in verdict
 
 
+@SLOW
 @pytest.mark.parametrize("content", [None, b"", b"nonsense", b"\x89MCAP0\r\n"])
 def test_nonsense_is_refused(start_cli, tmp_path, content):
     """One clear error and exit code 2."""
@@ -139,6 +147,7 @@ def test_nonsense_is_refused(start_cli, tmp_path, content):
     assert replay.output.startswith(f"cannot be verified: bag '{bag}'") and "Traceback" not in replay.output
 
 
+@SLOW
 def test_a_run_is_no_bag(start_cli, recorded_run):
     """But it is clear what is meant."""
     replay = start_cli("replay", recorded_run, "--verify")
@@ -146,6 +155,7 @@ def test_a_run_is_no_bag(start_cli, recorded_run):
     assert f"holds no .mcap file; did you mean '{recorded_run / 'bag'}'?" in replay.output
 
 
+@SLOW
 def test_interrupted_at_any_moment(start_cli, recorded_run):
     """Also while it is still loading its libraries: one word, and no code that stands for a verdict."""
     replay = start_cli("replay", recorded_run / "bag", "--verify")
@@ -156,6 +166,7 @@ def test_interrupted_at_any_moment(start_cli, recorded_run):
     assert replay.output == "interrupted\n"
 
 
+@SLOW
 @pytest.mark.parametrize("policy", ["hold", "passive"])
 def test_a_killed_controller(start_node, observer, tmp_path, policy):
     """The currents in force while nobody answers are those that the policy gave, and again the controller's after."""
@@ -180,6 +191,7 @@ def test_a_killed_controller(start_node, observer, tmp_path, policy):
     assert check(tmp_path / "bag")[0]
 
 
+@SLOW
 def test_each_epoch_is_verified(start_node, observer, tmp_path):
     """A run that was reset leaves two bags, and both come out again."""
     recorder = start_node("recorder", bag=tmp_path / "bag")
@@ -196,6 +208,7 @@ def test_each_epoch_is_verified(start_node, observer, tmp_path):
         assert identical, verdict
 
 
+@SLOW
 def test_nothing_compared_is_no_verdict(edited):
     """Without answers a drive cannot begin, however short it is and however late its samples begin."""
 
@@ -208,6 +221,7 @@ def test_nothing_compared_is_no_verdict(edited):
         check(edited(late))
 
 
+@SLOW
 def test_two_runs_in_one_bag_are_refused(recorded_run, tmp_path):
     """As a recorder that knows nothing of epochs would leave them."""
     bag = tmp_path / "both"

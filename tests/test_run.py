@@ -31,7 +31,7 @@ from trackvib_sim.vehicle.vehicle_file import read_vehicle
 SAMPLES = 10_000
 LOOP_TOPICS = ("/chassis/imu", "/powertrain/imu", "/coil_current", "/mount_state")
 
-pytestmark = pytest.mark.system
+pytestmark = [pytest.mark.system, pytest.mark.slow(reason="does whole runs of 10 s")]
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -6,7 +6,7 @@ import pytest
 from mcap.reader import make_reader
 from trackvib_sim.bags.reading import read_recording
 
-pytestmark = pytest.mark.system
+pytestmark = [pytest.mark.system, pytest.mark.slow(reason="each test is a loop of real processes")]
 
 LOOP_TOPICS = ("/chassis/imu", "/powertrain/imu", "/coil_current", "/mount_state")
 

@@ -7,6 +7,7 @@ import pytest
 from mr_mount_controller.node_base.shared_memory import remove_unfinished_segments
 
 pytestmark = pytest.mark.system
+SLOW = pytest.mark.slow(reason="starts nodes")
 
 SIZE = 52_400  # bytes of a port's segment
 HALVES = {"empty": b"", "blank": bytes(SIZE), "begun": bytes((1, 0, 0, 0)) + bytes(SIZE - 4)}
@@ -17,6 +18,7 @@ def ports(domain):
     return [Path(f"/dev/shm/fastrtps_port{7400 + 250 * domain + 10 + number}") for number in range(6)]
 
 
+@SLOW
 @pytest.mark.parametrize("half", HALVES)
 def test_node_starts_beside_unfinished_segments(start_node, domain, half):
     for path in ports(domain):

@@ -10,6 +10,7 @@ import time
 import pytest
 
 pytestmark = pytest.mark.system
+SLOW = pytest.mark.slow(reason="spreads drives over worker processes")
 
 PATIENCE = 90.0
 PNG = b"\x89PNG\r\n\x1a\n"
@@ -81,6 +82,7 @@ def test_leaves_table_report_and_picture(table1, tmp_path):
     assert finished(folder) == before
 
 
+@SLOW
 def test_goes_on_where_it_was_interrupted(table1, tmp_path):
     """Ctrl-C keeps what is finished and says so in one line; the same command does the rest only."""
     folder = tmp_path / "study"
@@ -100,6 +102,7 @@ def test_goes_on_where_it_was_interrupted(table1, tmp_path):
     assert not [path for path in folder.rglob("*") if path.name.startswith(".")]
 
 
+@SLOW
 def test_a_killed_worker_changes_nothing(table1, scheduler, tmp_path):
     """A cluster of two workers, one of them killed midway, gives the table that this machine alone gives."""
     address, process, worker = scheduler
@@ -117,6 +120,7 @@ def test_a_killed_worker_changes_nothing(table1, scheduler, tmp_path):
     assert len(ours.splitlines()) == 3
 
 
+@SLOW
 def test_a_lost_cluster_ends_the_study_in_one_line(table1, scheduler, tmp_path):
     """A scheduler without workers, and one that dies midway: an error that says so, and finished runs are kept."""
     address, process, worker = scheduler
@@ -132,6 +136,7 @@ def test_a_lost_cluster_ends_the_study_in_one_line(table1, scheduler, tmp_path):
     assert 0 < len(finished(tmp_path / "table1")) < 4
 
 
+@SLOW
 def test_a_worker_without_the_package_is_named(table1, start, scheduler, env):
     """A worker that cannot load what it is to run is refused before anything is run."""
     address, _, worker = scheduler
@@ -144,6 +149,7 @@ def test_a_worker_without_the_package_is_named(table1, start, scheduler, env):
     assert run.output.count("\n") <= 2
 
 
+@SLOW
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

@@ -4,7 +4,7 @@ import csv
 
 import pytest
 
-pytestmark = pytest.mark.system
+pytestmark = [pytest.mark.system, pytest.mark.slow(reason="drives every scenario")]
 
 SMALL = ("--scenarios", "bump", "--laws", "skyhook", "--seeds", 1)  # twelve runs
 

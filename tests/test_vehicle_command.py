@@ -5,6 +5,7 @@ import yaml
 from trackvib_sim.data import default_vehicle_file
 
 pytestmark = pytest.mark.system
+SLOW = pytest.mark.slow(reason="each case starts the command line")
 
 PNG = b"\x89PNG\r\n\x1a\n"
 
@@ -44,6 +45,7 @@ def test_prints_tables_and_draws(vehicle, tmp_path):
     assert [path.name for path in tmp_path.rglob("*.png")] == ["vehicle.png"]
 
 
+@SLOW
 def test_takes_another_vehicle(vehicle, other, tmp_path):
     """A file of the user's own is printed and drawn to where it was asked for."""
     code, output = vehicle("--vehicle", other("hull", "mass", 23456.0), "--out", tmp_path / "mine.png")
@@ -52,6 +54,7 @@ def test_takes_another_vehicle(vehicle, other, tmp_path):
     assert (tmp_path / "mine.png").read_bytes().startswith(PNG)
 
 
+@SLOW
 @pytest.mark.parametrize(
     ("item", "words"),
     [
@@ -68,6 +71,7 @@ def test_refuses_a_bad_vehicle_in_one_line(vehicle, other, tmp_path, item, words
     assert not list(tmp_path.rglob("*.png"))
 
 
+@SLOW
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

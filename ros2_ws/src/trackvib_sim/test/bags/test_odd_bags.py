@@ -49,6 +49,7 @@ def rewritten(tmp_path):
     return make
 
 
+@pytest.mark.slow(reason="reads a bag cut at many places")
 @pytest.mark.property
 @given(share=st.floats(0.0, 1.0))
 @settings(max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
@@ -72,6 +73,7 @@ def test_a_bag_cut_anywhere_is_read_as_far_as_it_goes(bag, tmp_path, share):
             np.testing.assert_array_equal(found, column[: len(found)])
 
 
+@pytest.mark.slow(reason="reads many damaged bags")
 @pytest.mark.property
 @given(place=st.floats(0.0, 1.0, exclude_max=True), bit=st.integers(0, 7))
 @settings(max_examples=30, suppress_health_check=[HealthCheck.function_scoped_fixture])

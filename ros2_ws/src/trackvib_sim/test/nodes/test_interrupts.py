@@ -8,6 +8,14 @@ from mr_mount_controller.node_base.interrupts import put_off_interrupts
 pytestmark = pytest.mark.property
 
 
+@pytest.fixture(autouse=True)
+def python_interrupts():
+    """Python's own handler, which a test run in the background of a script does not have."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 @pytest.mark.parametrize("error", [None, RuntimeError("from elsewhere")])
 def test_an_interrupt_acts_after_the_block(error):
     """As it would have without the block, also where something else has gone wrong in it."""

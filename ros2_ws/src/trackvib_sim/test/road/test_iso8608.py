@@ -44,6 +44,7 @@ def test_class_means_are_the_standards():
     assert roughness("D", 1.0) == pytest.approx(roughness("D", 0.1) / 100.0, rel=1e-14)
 
 
+@pytest.mark.slow(reason="sums the power of long roads")
 @pytest.mark.analytic
 @pytest.mark.parametrize(("low", "high"), OCTAVES)
 def test_octaves_have_the_power_of_the_class(low, high):
@@ -59,6 +60,7 @@ def test_octaves_have_the_power_of_the_class(low, high):
         assert side[band].mean() == pytest.approx(expected, rel=4.0 * spread(low, high) + 0.05)
 
 
+@pytest.mark.slow(reason="averages long roads")
 @pytest.mark.analytic
 @pytest.mark.parametrize(("low", "high"), OCTAVES)
 def test_left_and_right_are_coherent_as_stated(low, high):

@@ -12,6 +12,8 @@ from trackvib_sim.rui.state import TreeState, no_loads
 
 from .closed_chains import GRAVITY, ROUNDING, parallelogram, polygon
 
+pytestmark = pytest.mark.slow(reason="integrates closed chains for seconds")
+
 
 def _step(bodies, pins, state, loads, h, gravity):
     """One step of the classical Runge-Kutta method."""

@@ -52,6 +52,7 @@ def test_controller_knows_the_powertrain(vehicle):
     assert SPEEDS[0] < v.engine.speed_range[0] and SPEEDS[-1] > v.engine.speed_range[1]
 
 
+@pytest.mark.slow(reason="drives under every law")
 @pytest.mark.property
 @pytest.mark.parametrize("name", shipped_laws())
 def test_law_closes_the_loop(simulation, rough, name):

@@ -7,7 +7,7 @@ from trackvib_sim.analysis.vibration import band_limited, rms
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.open_loop import run_open_loop
 
-pytestmark = pytest.mark.property
+pytestmark = [pytest.mark.property, pytest.mark.slow(reason="drives for many seconds")]
 
 MEASURING = 5.0  # s
 ROUGH_FROM = 12.0  # m

@@ -14,6 +14,7 @@ pytestmark = pytest.mark.system
 NOBODY = "tcp://127.0.0.1:1"  # where no scheduler is
 
 
+@pytest.mark.slow(reason="starts worker processes")
 def test_only_missing_cases_are_done(vehicle, tmp_path):
     """Workers give what a run in this process gives; a second call needs none, a further case does."""
     wanted = cases("A", (20.0,), 2)
@@ -29,6 +30,7 @@ def test_only_missing_cases_are_done(vehicle, tmp_path):
             run_missing(vehicle, cases("A", (20.0,), 3), store, NOBODY, progress, "runs")
 
 
+@pytest.mark.slow(reason="waits for a scheduler that is not there")
 @pytest.mark.parametrize("address", [NOBODY, "nonsense", "", "foo://host:1", "127.0.0.1"])
 def test_an_address_without_scheduler_is_named(vehicle, tmp_path, address):
     """Whatever is wrong with it, the error repeats the address and shows what one looks like."""

@@ -52,6 +52,7 @@ def mirror(state, partner, turret):
         values[:] = values[::-1].copy()
 
 
+@pytest.mark.slow(reason="drives twice")
 def test_mirror_image_moves_as_the_mirror_image(simulation, partner, rows):
     """From a state in the middle of a run on an uneven road, with the engine off: each force has its mirror image.
 

@@ -181,6 +181,7 @@ def test_vehicle_against_pinocchio(tracked_vehicle, pinocchio, relative, form, r
         assert relative(value, reference) < ENGINES
 
 
+@pytest.mark.slow(reason="solves hundreds of trees in plain matrices")
 @pytest.mark.cross_engine
 @pytest.mark.parametrize("hundred", [0, 1, 2])
 def test_random_trees_against_pinocchio(random_table, pinocchio, relative, form, hundred):

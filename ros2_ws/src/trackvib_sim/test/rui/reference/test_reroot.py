@@ -5,6 +5,8 @@ import pytest
 from trackvib_sim.rui.reference.reroot import reroot, reroot_state
 from trackvib_sim.rui.table import Body, Hinge
 
+pytestmark = pytest.mark.slow(reason="solves each tree from every root in plain matrices")
+
 ENGINES = 1e-9  # relative to the largest; rounding of products along up to 40 bodies leaves some 1e-12
 
 

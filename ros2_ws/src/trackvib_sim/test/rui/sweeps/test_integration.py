@@ -71,6 +71,7 @@ def constants(bodies, state, gravity, time):
     return np.concatenate((momentum, angular.sum(axis=0), [energy])), np.repeat(sizes, (3, 3, 1))
 
 
+@pytest.mark.slow(reason="integrates for seconds")
 @pytest.mark.property
 @pytest.mark.parametrize("gravity", [np.zeros(3), G], ids=["weightless", "falling"])
 @pytest.mark.parametrize("which", ["vehicle", "tree"])
@@ -84,6 +85,7 @@ def test_free_flight_keeps_momentum_and_energy(table, random_state, random_table
     assert np.abs(end.hinge - state.hinge).max() > 0.5
 
 
+@pytest.mark.slow(reason="integrates at many step sizes")
 @pytest.mark.analytic
 def test_integrator_is_of_first_order(random_table, solved, fourth_order):
     """Halving the step of symplectic Euler halves the error at the end, on a tree with springs in its hinges."""

@@ -36,6 +36,7 @@ def made_up():
     return found
 
 
+@pytest.mark.slow(reason="drives every scenario")
 @pytest.mark.property
 @pytest.mark.parametrize("name", SCENARIOS)
 def test_every_scenario_gives_every_quantity(vehicle, name):
@@ -48,6 +49,7 @@ def test_every_scenario_gives_every_quantity(vehicle, name):
     assert result.levels["powertrain_high"] < result.levels["powertrain"]
 
 
+@pytest.mark.slow(reason="drives a scenario for each part")
 @pytest.mark.property
 @pytest.mark.parametrize("change", [{"law": "skyhook"}, {"current": 2.0}, {"track_phase": 0.6}])
 def test_every_part_of_a_case_reaches_the_result(vehicle, change):
@@ -134,6 +136,7 @@ def test_a_changed_law_makes_results_void(tmp_path, monkeypatch):
     assert controllers([law]) != before
 
 
+@pytest.mark.slow(reason="starts worker processes")
 @pytest.mark.system
 def test_only_missing_cases_are_done(vehicle, tmp_path):
     """Workers give what a run in this process gives; a second call needs none."""

@@ -8,7 +8,7 @@ from trackvib_sim.studies.case import GOOD, PROBES, RATES, Case, Drive, Result
 from trackvib_sim.studies.paper.figures import CLASSES, SEED, SHOWN, SPEEDS, TRACK_PHASE, draw
 from trackvib_sim.studies.paper.second_solver import Comparison
 
-pytestmark = pytest.mark.analytic
+pytestmark = [pytest.mark.analytic, pytest.mark.slow(reason="draws every figure")]
 
 PNG = b"\x89PNG\r\n\x1a\n"
 FAILED = Case("C", 20.0, SEED, TRACK_PHASE)

@@ -54,6 +54,7 @@ def test_kinetic_and_gravitational_energy_are_the_sums_over_bodies_and_shoes(tab
     assert meter.account.gravitational[0] == pytest.approx(weight * whole.centre[2], abs=1e-9 * weight)
 
 
+@pytest.mark.slow(reason="a second of drive in single steps")
 @pytest.mark.parametrize(("teeth", "residual"), [("easy_teeth", 2e-3), ("vehicle", 1e-2)])
 @pytest.mark.parametrize(("road_class", "speed"), [("E", 10.0), ("A", 20.0)])
 def test_drive_work_is_dissipated_or_stored(request, rolling, audited, road_class, speed, teeth, residual):

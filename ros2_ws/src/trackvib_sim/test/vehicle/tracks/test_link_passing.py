@@ -10,6 +10,8 @@ from trackvib_sim.simulation.simulation import CHASSIS, POWERTRAIN, Probe
 
 from .other_links import LINKS, with_links
 
+pytestmark = pytest.mark.slow(reason="rolls over seconds of track")
+
 RATE = 1000.0  # Hz, of the samples
 RESOLUTION = 1.0  # Hz
 

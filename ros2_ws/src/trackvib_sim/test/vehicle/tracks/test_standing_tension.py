@@ -37,6 +37,7 @@ def mean_tension(vehicle, simulation, level_road):
     return measure
 
 
+@pytest.mark.slow(reason="lets vehicles of many tracks come to rest")
 def test_tension_is_the_pretension_whatever_the_links(vehicle, mean_tension):
     """Tracks of the same length from 100, 120 and 150 links have the same tension, near the pretension.
 
