@@ -19,8 +19,9 @@ from environment.steps import Task, fingerprint
 from environment.system import Interpreter
 
 # Files of a package that decide what colcon builds and installs; the contents of all others are live, through links.
-_DECISIVE = {"package.xml", "CMakeLists.txt", "setup.py", "setup.cfg"}
+_DECISIVE = {"package.xml", "CMakeLists.txt", "pyproject.toml", "setup.py", "setup.cfg"}
 _INTERFACES = {".msg", ".srv", ".action"}
+_OTHERS = {"test", "build"}  # folders that colcon does not install from; the second is left by pip
 
 
 class Setup(NamedTuple):
@@ -160,7 +161,8 @@ def _workspace_sources(folder: Path) -> list:
     """Every file that colcon sees, with a hash where its contents decide; no modules and no tests: those are live."""
     found = []
     for parent, folders, files in os.walk(folder):
-        folders[:] = sorted(name for name in folders if not name.startswith((".", "__")) and name != "test")
+        folders[:] = sorted(each for each in folders if not each.startswith((".", "__")) and each not in _OTHERS)
+        folders[:] = [each for each in folders if not each.endswith(".egg-info")]
         if "__init__.py" in files and "package.xml" not in files:
             folders.clear()
             continue

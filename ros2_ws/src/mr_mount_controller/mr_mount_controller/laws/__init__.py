@@ -1,20 +1,29 @@
-"""Control laws: one a file, and the contract they fulfil. No ROS."""
+"""Control laws: one a file, and the contract they fulfil (`ControlLaw`). No ROS."""
 
 from importlib import import_module
 from importlib.metadata import entry_points
 
-from ..node_base.parameters import ParameterError
-from .base import ControlLaw
+from ..node_base.parameters import Parameter, ParameterError
+from .base import ControlLaw, LawError, Sample
+
+__all__ = ["ControlLaw", "LawError", "Parameter", "ParameterError", "Sample", "find_law", "known_laws"]
 
 GROUP = "mr_mount_controller.laws"
 
 
-def known_laws():
-    """Return the names of the laws that installed packages offer, sorted."""
+def known_laws() -> list[str]:
+    """Return the names of the laws that installed packages offer, sorted.
+
+    Examples
+    --------
+    >>> from mr_mount_controller.laws import known_laws
+    >>> "skyhook" in known_laws()
+    True
+    """
     return sorted({entry.name for entry in entry_points(group=GROUP)})
 
 
-def find_law(name):
+def find_law(name: str) -> type[ControlLaw]:
     """Return the class of a control law.
 
     Parameters
@@ -26,6 +35,13 @@ def find_law(name):
     ------
     ParameterError
         There is no such law, or it is not a `ControlLaw`.
+
+    Examples
+    --------
+    >>> from mr_mount_controller.laws import find_law
+    >>> law = find_law("skyhook")(period=1e-3, firm_current=2.5)
+    >>> law.firm_current  # A
+    2.5
     """
     for entry in entry_points(group=GROUP):
         if entry.name == name:

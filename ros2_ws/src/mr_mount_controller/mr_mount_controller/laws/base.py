@@ -77,8 +77,7 @@ class ControlLaw:
     --------
     Firm while the powertrain is pushed up:
 
-    >>> from mr_mount_controller.laws.base import ControlLaw, Sample
-    >>> from mr_mount_controller.node_base.parameters import Parameter
+    >>> from mr_mount_controller.laws import ControlLaw, Parameter, Sample
     >>> class Upwards(ControlLaw):
     ...     parameters = (Parameter("firm", 2.5, "Current on the way up.", "A", 0.7, 4.0),)
     ...
@@ -100,7 +99,7 @@ class ControlLaw:
     def reset(self):
         """Forget the past."""
 
-    def update(self, sample):
+    def update(self, sample: Sample) -> float | tuple[float, float] | np.ndarray:
         """Return the current [A] that answers a `Sample`: one for both mounts or a pair (left, right)."""
         raise NotImplementedError
 

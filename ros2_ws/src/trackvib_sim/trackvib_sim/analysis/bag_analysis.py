@@ -1,10 +1,12 @@
 """From a recording to its `Analysis`."""
 
+from collections.abc import Callable
 from math import hypot, isfinite, isnan
 
 import numpy as np
 
 from ..bags.provenance import parameters_with
+from ..bags.recording import Recording
 from ..numerics.units import NANO
 from ..vehicle.vehicle_file import VehicleFileError, parse_vehicle
 from .iso2631 import LEAST_RATE
@@ -44,7 +46,11 @@ def _told(recording, parameter):
     return parameters_with(recording.provenance, parameter)[1]
 
 
-def analyse(recording, settle=None, on_progress=lambda done, total: None):
+def analyse(
+    recording: Recording,
+    settle: float | None = None,
+    on_progress: Callable[[int, int], None] = lambda done, total: None,
+) -> Analysis:
     """Return the `Analysis` of a `bags.recording.Recording`.
 
     Parameters
@@ -61,6 +67,15 @@ def analyse(recording, settle=None, on_progress=lambda done, total: None):
         No segment without gaps leaves a second to be measured.
     ValueError
         The settling time is too short, the sensors differ in their rates, or their stamps cannot be a time base.
+
+    Examples
+    --------
+    With `bag` the path of a bag:
+
+    >>> import trackvib_sim as tv
+    >>> analysis = tv.analyse(tv.read_recording(bag))
+    >>> bool(analysis.sensors["powertrain"]["z"].rms > 0.0)  # m/s^2, 0.5 Hz and above
+    True
     """
     settle = settling_of(recording) if settle is None else settle
     if not settle >= SHORTEST_SETTLING:  # nan is refused, too

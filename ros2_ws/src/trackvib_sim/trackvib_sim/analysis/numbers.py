@@ -127,7 +127,17 @@ class History:
 
 @dataclass(frozen=True)
 class Analysis:
-    """A bag in numbers. "From the start" means from one period before its first sample, 0 of a whole run."""
+    """A bag in numbers. "From the start" means from one period before its first sample, 0 of a whole run.
+
+    Examples
+    --------
+    With `bag` the path of a bag:
+
+    >>> import trackvib_sim as tv
+    >>> analysis = tv.analyse(tv.read_recording(bag))
+    >>> analysis.rate, analysis.band  # Hz
+    (1000.0, (0.5, 500.0))
+    """
 
     bag: str  # path as it was given
     begin: int = _number("ns")  # stamp of the start

@@ -2,4 +2,12 @@
 
 
 class BagError(RuntimeError):
-    """A bag cannot be written or read; the message names it and says why."""
+    """A bag cannot be written or read; the message names it and says why.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> tv.read_recording("nowhere")
+    Traceback (most recent call last):
+    trackvib_sim.bags.errors.BagError: bag 'nowhere' is not there
+    """

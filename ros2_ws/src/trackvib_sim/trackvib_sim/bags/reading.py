@@ -4,6 +4,7 @@ Nothing is done message by message in Python but for the rare topics.
 """
 
 from collections import Counter
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -53,7 +54,7 @@ _READ_ERRORS = (
 )  # fmt: skip
 
 
-def read_recording(path, on_progress=lambda done, total: None):
+def read_recording(path: str | Path, on_progress: Callable[[int, int], None] = lambda done, total: None) -> Recording:
     """Return the `Recording` in a bag, a folder with MCAP files or one such file, as far as it goes.
 
     Topics are found by the ends of their names. Of several that end alike the one beside the sensors counts.
@@ -68,6 +69,15 @@ def read_recording(path, on_progress=lambda done, total: None):
     ------
     BagError
         The bag cannot be read, holds no Imu messages of one of the sensors, or those of several vehicles.
+
+    Examples
+    --------
+    With `bag` the path of a bag:
+
+    >>> import trackvib_sim as tv
+    >>> recording = tv.read_recording(bag)
+    >>> recording.chassis.specific_force.shape[1], recording.complete
+    (3, True)
     """
     path, reading = Path(path), _Reading()
     files = bag_files(path)

@@ -57,7 +57,16 @@ class LoopCounts(NamedTuple):
 
 
 class Recording(NamedTuple):
-    """A run as its bag tells it; optional topics that are not in the bag are None."""
+    """A run as its bag tells it; optional topics that are not in the bag are None.
+
+    Examples
+    --------
+    With `bag` the path of a bag:
+
+    >>> import trackvib_sim as tv
+    >>> tv.read_recording(bag).mounts.force.shape[1:]  # left and right mount, x y z
+    (2, 3)
+    """
 
     path: Path
     topics: dict  # end of a topic's name -> whole name

@@ -3,8 +3,6 @@
 import re
 from pathlib import Path
 
-from ament_index_python.packages import get_package_share_directory
-
 SEPARATOR = "=" * 80
 PRIMITIVE = re.compile(
     r"(bool|byte|char|float32|float64|int8|uint8|int16|uint16|int32|uint32|int64|uint64|string|wstring)(<=\d+)?$"
@@ -16,6 +14,11 @@ def schema_text(type_name):
 
     The root's text comes first; each dependency follows once, after a line of 80 `=` and a line `MSG: pkg/Type`
     (MCAP registry of schema encodings, "ros2msg").
+
+    Raises
+    ------
+    LookupError
+        The type is not installed here, or ROS 2 is not.
     """
     package, _, name = type_name.split("/")
     found = {}
@@ -28,6 +31,10 @@ def _gather(package, name, found):
     key = f"{package}/{name}"
     if key in found:
         return
+    try:
+        from ament_index_python.packages import get_package_share_directory
+    except ImportError:
+        raise LookupError(f"the definition of {key} is part of a ROS 2 installation, and there is none") from None
     text = (Path(get_package_share_directory(package)) / "msg" / f"{name}.msg").read_text(encoding="utf-8")
     found[key] = text
     for line in text.splitlines():

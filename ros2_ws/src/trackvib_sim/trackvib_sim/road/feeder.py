@@ -1,5 +1,9 @@
 """Cuts a road into patches and hands them out ahead of the vehicle."""
 
+from typing import Protocol
+
+import numpy as np
+
 from .iso8608 import SPACING
 
 PATCH = 100  # samples
@@ -7,10 +11,17 @@ BEHIND = 20.0  # m of road behind the vehicle's origin, for the rear wheels
 KEPT = 2  # patches by which a vehicle may go back without being fed anew
 
 
+class HasHeights(Protocol):
+    """A road: whatever gives the heights of its samples, sample i at distance i * `SPACING`."""
+
+    def heights(self, first: int, count: int) -> np.ndarray:
+        """Return the heights (2, count) [m], left and right, of the samples `first` ... `first + count - 1`."""
+
+
 class RoadFeeder:
     """Knows what has been handed out already; a vehicle that jumps back is fed anew from there."""
 
-    def __init__(self, road, horizon):
+    def __init__(self, road: HasHeights, horizon: float):
         self._road = road
         self._horizon = horizon
         self._next = self._first = None  # numbers of patches

@@ -37,14 +37,23 @@ class Iso8608Road:
 
     Sample i lies at distance i * `SPACING`. Harmonics lie one in each of `HARMONICS` logarithmic bands, at a random
     place of it, so that the profile has no period.
+
+    Examples
+    --------
+    Left and right, metres, beyond the level start:
+
+    >>> import trackvib_sim as tv
+    >>> heights = tv.Iso8608Road("E", seed=1).heights(first=400, count=1000)
+    >>> heights.shape, bool(0.001 < heights.std() < 0.1)
+    ((2, 1000), True)
     """
 
     road_class: str
     seed: int
-    level_until: float
-    fade: float
+    level_until: float = LEVEL_UNTIL
+    fade: float = FADE
 
-    def heights(self, first, count):
+    def heights(self, first: int, count: int) -> np.ndarray:
         """Return the heights (2, count) [m], left and right, of the samples `first` ... `first + count - 1`.
 
         The result for a sample does not depend on which patch it is asked in, to the last bit.

@@ -26,6 +26,12 @@ class CutPin:
     alpha, beta : float
         Baumgarte's parameters [1/s]. A closure error decays like a vibration of natural frequency beta [rad/s] and
         damping ratio alpha / beta; alpha = beta draws it back fastest.
+
+    Examples
+    --------
+    >>> from trackvib_sim import rui
+    >>> rui.CutPin("rod", (1.0, 0.0, 0.0), "base", (0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0)).alpha
+    0.0
     """
 
     body_a: str

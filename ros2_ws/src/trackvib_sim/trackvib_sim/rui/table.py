@@ -1,5 +1,6 @@
 """The readable table of a tree of rigid bodies and hinges, and what a table must fulfil."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from math import isfinite
 
@@ -30,6 +31,12 @@ class Hinge:
         Of an "elastic" hinge, parent's axes: three displacements [N/m, N s/m], three rotations [N m/rad, N m s/rad].
 
     The coordinate (rad, or m for a prismatic one) is that of the child relative to the parent.
+
+    Examples
+    --------
+    >>> from trackvib_sim import rui
+    >>> rui.Hinge(1, "prismatic", "base", place=(0.0, 0.5, 0.0), axis=(1.0, 0.0, 0.0)).prescribed
+    False
     """
 
     number: int
@@ -48,6 +55,13 @@ class Body:
 
     `centre` is the centre of mass from the origin [m], `inertia` the (3, 3) matrix about it [kg m^2], in body axes.
     The root body has no hinge.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from trackvib_sim import rui
+    >>> rui.Body(0, "base", mass=10.0, centre=(0.1, 0.0, 0.0), inertia=np.eye(3)).hinge is None
+    True
     """
 
     number: int
@@ -58,7 +72,7 @@ class Body:
     hinge: Hinge | None = None
 
 
-def check_table(bodies):
+def check_table(bodies: Sequence[Body]) -> None:
     """Refuse a table that no tree can be built from.
 
     Parameters
@@ -70,6 +84,14 @@ def check_table(bodies):
     ------
     ValueError
         Names the body or hinge, the value and what is accepted.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from trackvib_sim import rui
+    >>> rui.check_table([rui.Body(0, "base", -1.0, (0.0, 0.0, 0.0), np.eye(3))])
+    Traceback (most recent call last):
+    ValueError: body 0 (base): mass is -1.0 kg, must be finite and > 0
     """
     if not bodies:
         raise ValueError("the table has no body, must have at least the root")

@@ -1,33 +1,52 @@
 """A run under constant current, without controller and without a crossing to Python a period."""
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
-from ..road.feeder import RoadFeeder
-from .simulation import HORIZON
+from ..road.feeder import HasHeights, RoadFeeder
+from .simulation import HORIZON, Simulation
 
 _CHUNK = 100  # periods in one compiled call
 
 
 class OpenLoopRecord(NamedTuple):
-    """What a run measured, one row a control period; sensors in the order of the simulation's sample."""
+    """What a run measured, one row a control period; sensors in the order of the simulation's sample.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> tv.OpenLoopRecord._fields
+    ('time', 'specific_force', 'speed')
+    """
 
     time: np.ndarray  # (k,) s
     specific_force: np.ndarray  # (k, m, 3) m/s^2
     speed: np.ndarray  # (k,) of the hull, along its own x axis, m/s
 
 
-def run_open_loop(simulation, road, periods, progress=lambda done: None):
+def run_open_loop(
+    simulation: Simulation, road: HasHeights, periods: int, on_progress: Callable[[int], None] = lambda done: None
+) -> OpenLoopRecord:
     """Run a `simulation.Simulation` on a road with its passive current for a number of control periods.
 
     Gives what `closed_loop.run_closed_loop` gives under the passive law with that current, to the last bit.
-    `progress(done)` is called now and then with the periods done.
+    `on_progress(done)` is called now and then with the periods done.
 
     Raises
     ------
     RunFailed
         The state left what the model can describe.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> vehicle, _ = tv.read_vehicle(tv.default_vehicle_file())
+    >>> settings = tv.RunSettings(tv.Operation(10.0, 1650.0, False), tv.Rates(), passive_current=1.0)
+    >>> record = tv.run_open_loop(tv.Simulation(vehicle, settings), tv.Iso8608Road("C", seed=7), periods=100)
+    >>> bool(abs(record.speed.mean() - 10.0) < 0.1)  # the driver keeps the speed, m/s
+    True
     """
     feeder = RoadFeeder(road, HORIZON)
     current = np.full(2, simulation.settings.passive_current)
@@ -38,6 +57,6 @@ def run_open_loop(simulation, road, periods, progress=lambda done: None):
             simulation.road.add(start, spacing, *heights)
         part = slice(first, first + _CHUNK)
         simulation.advance_many(current, force[part], speed[part])
-        progress(min(first + _CHUNK, periods))
+        on_progress(min(first + _CHUNK, periods))
     time = np.arange(1, periods + 1) / simulation.settings.rates.control
     return OpenLoopRecord(time, force, speed)

@@ -8,7 +8,19 @@ from ..vehicle.system import Operation
 
 @dataclass(frozen=True)
 class Rates:
-    """Whole rates [Hz] that divide each other, so that every event falls on an exact nanosecond."""
+    """Whole rates [Hz] that divide each other, so that every event falls on an exact nanosecond.
+
+    Raises
+    ------
+    ValueError
+        They do not.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> tv.Rates(physics=10_000, control=1_000).steps
+    10
+    """
 
     physics: int = 10_000
     control: int = 1_000
@@ -24,19 +36,27 @@ class Rates:
             raise ValueError(f"physics_rate {self.physics} Hz does not divide a second into whole nanoseconds")
 
     @property
-    def steps(self):
+    def steps(self) -> int:
         """Physics steps in a control period."""
         return self.physics // self.control
 
     @property
-    def period(self):
+    def period(self) -> int:
         """Control period [ns]."""
         return NANO // self.control
 
 
 @dataclass(frozen=True)
 class RunSettings:
-    """How the vehicle is driven and at which rates it is stepped and measured."""
+    """How the vehicle is driven and at which rates it is stepped and measured.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> settings = tv.RunSettings(tv.Operation(10.0, 1650.0, False), tv.Rates(), passive_current=1.0)
+    >>> settings.rates.period  # ns
+    1000000
+    """
 
     operation: Operation
     rates: Rates

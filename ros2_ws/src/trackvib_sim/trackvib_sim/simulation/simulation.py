@@ -1,5 +1,6 @@
 """The vehicle in motion: holds system, state and road, and advances one control period at a time."""
 
+from collections.abc import Sequence
 from copy import deepcopy
 from typing import NamedTuple
 
@@ -7,8 +8,10 @@ import numpy as np
 
 from ..numerics.units import NANO
 from ..road.store import RoadStore
+from ..vehicle.parameters import Vehicle
 from ..vehicle.system import body_rows, build_system, new_work
 from .run_in import run_in
+from .settings import RunSettings
 from .step import REASONS, Sensors, Status, advance_many, control_periods, new_sample, observe
 
 CHASSIS, POWERTRAIN = 0, 1  # rows of the sample
@@ -17,14 +20,28 @@ _MARGIN = 1.0  # m of road beyond sprockets and idlers
 
 
 class Probe(NamedTuple):
-    """A further point whose acceleration is measured."""
+    """A further point whose acceleration is measured.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> tv.Probe("turret", (0.0, 0.0, 0.5)).body
+    'turret'
+    """
 
     body: str  # name in the body table
     place: tuple  # in the body's axes, from its origin, m
 
 
 class RunFailed(RuntimeError):
-    """The state left what the model can describe; the message says when."""
+    """The state left what the model can describe; the message says when.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> issubclass(tv.RunFailed, RuntimeError)
+    True
+    """
 
 
 class Simulation:
@@ -40,9 +57,18 @@ class Simulation:
         To be filled by the caller, as far ahead as `road_is_enough` asks.
     periods : int
         Control periods done.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> vehicle, _ = tv.read_vehicle(tv.default_vehicle_file())
+    >>> settings = tv.RunSettings(tv.Operation(10.0, 1650.0, False), tv.Rates(), passive_current=1.0)
+    >>> simulation = tv.Simulation(vehicle, settings)
+    >>> simulation.sample.mounts.current  # left and right, A
+    array([1., 1.])
     """
 
-    def __init__(self, vehicle, settings, probes=()):
+    def __init__(self, vehicle: Vehicle, settings: RunSettings, probes: Sequence[Probe] = ()):
         self.settings = settings
         self.system = build_system(vehicle, settings.operation, 1.0 / settings.rates.physics)
         self._initial = run_in(vehicle, self.system, settings)
@@ -68,16 +94,16 @@ class Simulation:
         observe(self.system, self.state, self._work.motion, self.sample)
 
     @property
-    def time(self):
+    def time(self) -> int:
         """Simulated time at the end of the last period [ns]."""
         return self.periods * self.settings.rates.period
 
     @property
-    def distance(self):
+    def distance(self) -> float:
         """Distance of the hull's origin along the road [m]."""
         return float(self.state.tree.position[0, 0])
 
-    def road_is_enough(self):
+    def road_is_enough(self) -> bool:
         """Return whether the next period can be done with the road at hand."""
         return self._road_around(1) is not None
 

@@ -115,7 +115,16 @@ class DriverParameters(Section):
 
 
 class Vehicle(Section):
-    """The whole file."""
+    """The whole file.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> vehicle, _ = tv.read_vehicle(tv.default_vehicle_file())
+    >>> lighter = vehicle.model_copy(update={"hull": vehicle.hull.model_copy(update={"mass": 20_000.0})})
+    >>> lighter.hull.mass  # kg
+    20000.0
+    """
 
     hull: RigidBodyParameters
     turret: RevoluteBodyParameters

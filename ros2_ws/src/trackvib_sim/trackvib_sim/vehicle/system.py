@@ -26,7 +26,14 @@ SPRUNG = ("hull", "turret", "gun_mount", "recoil_part", "powertrain")
 
 @dataclass(frozen=True)
 class Operation:
-    """How the vehicle is driven in a run."""
+    """How the vehicle is driven in a run.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> tv.Operation(speed=10.0, engine_speed=1650.0, imposed_displacement=False).track_phase
+    0.0
+    """
 
     speed: float  # m/s
     engine_speed: float  # r/min, 0 for a standing engine

@@ -9,10 +9,18 @@ from .parameters import Vehicle
 
 
 class VehicleFileError(ValueError):
-    """A vehicle file that cannot be used; the message names file, item, value and what is accepted."""
+    """A vehicle file that cannot be used; the message names file, item, value and what is accepted.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> tv.read_vehicle("nowhere.yaml")
+    Traceback (most recent call last):
+    trackvib_sim.vehicle.vehicle_file.VehicleFileError: vehicle file 'nowhere.yaml' cannot be read: ...
+    """
 
 
-def parse_vehicle(text, name):
+def parse_vehicle(text: str, name: str) -> Vehicle:
     """Return the `Vehicle` that a YAML text describes.
 
     Raises
@@ -52,13 +60,20 @@ class _Loader(yaml.SafeLoader):
         return super().compose_node(parent, index)
 
 
-def read_vehicle(path):
+def read_vehicle(path: str | Path) -> tuple[Vehicle, str]:
     """Return the `Vehicle` in a YAML file and the file's text.
 
     Raises
     ------
     VehicleFileError
         The file cannot be read, or as in `parse_vehicle`.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> vehicle, text = tv.read_vehicle(tv.default_vehicle_file())
+    >>> vehicle.tracks.links, vehicle.tracks.pitch  # a side, m
+    (120.0, 0.115)
     """
     try:
         text = Path(path).read_text(encoding="utf-8")

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ..state import free_bodies
-from .model import anchored, settled
+from .model import LinearModel, anchored, settled
 from .sweep import count_below, forced_motion, inertia_only, tips_to_root, unbalanced_accelerations
 from .tree import linearise
 
@@ -15,7 +15,7 @@ LARGEST_STEP = 0.3  # rad and m
 SMALLEST_STEP = 1e-14  # rad and m, rounding
 
 
-def find_equilibrium(model, tolerance=1e-9, steps=200):
+def find_equilibrium(model: LinearModel, tolerance: float = 1e-9, steps: int = 200) -> LinearModel:
     """Return `model` in a state of rest, its laws referred to that state.
 
     Newton steps with the stiffness of the sweeps, kept downhill in potential energy, so that a stable equilibrium is
@@ -36,6 +36,23 @@ def find_equilibrium(model, tolerance=1e-9, steps=200):
     ------
     ValueError
         No state of rest was found (names the body or hinge with the largest acceleration left), or a spring is refused.
+
+    Examples
+    --------
+    A pendulum that starts at 1 rad comes to hang straight down.
+
+    >>> import numpy as np
+    >>> from trackvib_sim import rui
+    >>> rod = rui.Hinge(1, "revolute", "base", place=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
+    >>> bodies = [
+    ...     rui.Body(0, "base", 1.0, (0.0, 0.0, 0.0), np.eye(3)),
+    ...     rui.Body(1, "arm", 2.0, (0.0, 0.0, -0.5), 0.1 * np.eye(3), rod),
+    ... ]
+    >>> state = rui.rest_state(bodies)
+    >>> state.hinge[1] = 1.0
+    >>> at_rest = rui.find_equilibrium(rui.LinearModel(bodies, state, fixed_root=True))
+    >>> bool(abs(at_rest.state.hinge[1]) < 1e-9)
+    True
     """
     for spring in model.springs:
         if len(spring.stiffness) == 6:

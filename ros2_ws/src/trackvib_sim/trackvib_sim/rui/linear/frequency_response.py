@@ -3,12 +3,14 @@
 Everything oscillates as Re(amplitude exp(i omega t)): a response that lags behind has a negative phase.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from ..reference.placement import place_bodies
 from .equilibrium import check_equilibrium
+from .model import LinearModel
 from .sweep import forced_motion, tips_to_root
 from .tree import move
 
@@ -17,7 +19,14 @@ AT_A_TIME = 256  # frequencies
 
 @dataclass(frozen=True)
 class At:
-    """A point and direction of a body: force in and displacement out, or with `turning` moment in and rotation out."""
+    """A point and direction of a body: force in and displacement out, or with `turning` moment in and rotation out.
+
+    Examples
+    --------
+    >>> from trackvib_sim import rui
+    >>> rui.At("arm", point=(0.0, 0.0, -1.0)).direction
+    (0.0, 0.0, 1.0)
+    """
 
     body: str
     point: tuple = (0.0, 0.0, 0.0)  # body axes, from its origin, m
@@ -48,7 +57,9 @@ class MountForce:
     direction: tuple = field(default=(0.0, 0.0, 1.0))  # parent's axes
 
 
-def frequency_response(model, frequencies, inputs, outputs, derivative=0):
+def frequency_response(
+    model: LinearModel, frequencies: Sequence[float], inputs: Sequence, outputs: Sequence, derivative: int = 0
+) -> np.ndarray:
     """Return amplitudes of outputs per unit of input.
 
     Parameters
@@ -67,6 +78,28 @@ def frequency_response(model, frequencies, inputs, outputs, derivative=0):
     -------
     (F, outputs, inputs) complex array
         For a force in: receptance [m/N], mobility [m/(N s)], accelerance [m/(N s^2)].
+
+    Raises
+    ------
+    ValueError
+        The model is not at rest, a frequency is not above 0, or there is no such body.
+
+    Examples
+    --------
+    A horizontal force on the arm's end moves it; well below resonance by 1 / (M g l) a newton.
+
+    >>> import numpy as np
+    >>> from trackvib_sim import rui
+    >>> rod = rui.Hinge(1, "revolute", "base", place=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
+    >>> bodies = [
+    ...     rui.Body(0, "base", 1.0, (0.0, 0.0, 0.0), np.eye(3)),
+    ...     rui.Body(1, "arm", 2.0, (0.0, 0.0, -0.5), 0.1 * np.eye(3), rod),
+    ... ]
+    >>> model = rui.LinearModel(bodies, rui.rest_state(bodies), fixed_root=True)
+    >>> end = rui.At("arm", point=(0.0, 0.0, -1.0), direction=(1.0, 0.0, 0.0))
+    >>> receptance = rui.frequency_response(model, [0.001], [end], [end])
+    >>> round(float(abs(receptance[0, 0, 0])), 4)  # m/N
+    0.1019
     """
     tree, where = check_equilibrium(model), place_bodies(model.bodies, model.state)
     rows = {body.name: row for row, body in enumerate(model.bodies)}

@@ -34,6 +34,13 @@ class GroundSpring:
         On the body where the point is at `place` [N; N m].
     place : (3,) array or None
         Global [m]; None is where the point is in the model's state.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from trackvib_sim import rui
+    >>> rui.GroundSpring("base", stiffness=1e4 * np.eye(3), damping=1e2 * np.eye(3)).point
+    array([0., 0., 0.])
     """
 
     body: str
@@ -113,6 +120,19 @@ class LinearModel:
         is a GroundSpring without stiffness. Accelerations of prescribed hinges must be zero.
     fixed_root : bool
         The root is held; otherwise it is free.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from trackvib_sim import rui
+    >>> rod = rui.Hinge(1, "revolute", "base", place=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
+    >>> bodies = [
+    ...     rui.Body(0, "base", 1.0, (0.0, 0.0, 0.0), np.eye(3)),
+    ...     rui.Body(1, "arm", 2.0, (0.0, 0.0, -0.5), 0.1 * np.eye(3), rod),
+    ... ]
+    >>> model = rui.LinearModel(bodies, rui.rest_state(bodies), fixed_root=True)
+    >>> model.stiffness  # none given
+    array([0., 0.])
     """
 
     bodies: tuple

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .equilibrium import check_equilibrium
+from .model import LinearModel
 from .natural_modes import mode_shapes, natural_values
 from .sweep import forced_motion, tips_to_root
 from .tree import centre_of_mass, move
@@ -49,6 +50,20 @@ class Mode:
     whole_share : (6,) array
         The same of the motion of the whole tree with the root, at the common centre of mass; sums up with
         hinge_share to 1 if there are no elastic hinges.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from trackvib_sim import rui
+    >>> rod = rui.Hinge(1, "revolute", "base", place=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
+    >>> bodies = [
+    ...     rui.Body(0, "base", 1.0, (0.0, 0.0, 0.0), np.eye(3)),
+    ...     rui.Body(1, "arm", 2.0, (0.0, 0.0, -0.5), 0.1 * np.eye(3), rod),
+    ... ]
+    >>> model = rui.LinearModel(bodies, rui.rest_state(bodies), fixed_root=True)
+    >>> (mode,) = rui.modes(model)
+    >>> round(mode.frequency, 4), mode.overdamped
+    (0.6435, False)
     """
 
     frequency: float
@@ -72,16 +87,31 @@ class Mode:
         return self.pole.imag == 0.0
 
 
-def natural_frequencies(model, highest_frequency):
+def natural_frequencies(model: LinearModel, highest_frequency: float) -> np.ndarray:
     """Return all undamped frequencies below a limit [Hz], ascending, each as often as it occurs.
 
     Free motions are 0 but for rounding (about 1e-7 of the highest). An unstable motion exp(a t) comes out as -a / 2 pi.
+
+    Examples
+    --------
+    A pendulum with M = 2 kg, l = 0.5 m and J = 0.1 kg m^2: sqrt(M g l / (J + M l^2)) / 2 pi.
+
+    >>> import numpy as np
+    >>> from trackvib_sim import rui
+    >>> rod = rui.Hinge(1, "revolute", "base", place=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
+    >>> bodies = [
+    ...     rui.Body(0, "base", 1.0, (0.0, 0.0, 0.0), np.eye(3)),
+    ...     rui.Body(1, "arm", 2.0, (0.0, 0.0, -0.5), 0.1 * np.eye(3), rod),
+    ... ]
+    >>> model = rui.LinearModel(bodies, rui.rest_state(bodies), fixed_root=True)
+    >>> rui.natural_frequencies(model, highest_frequency=10.0).round(6)
+    array([0.643545])
     """
     values = natural_values(check_equilibrium(model), (2.0 * np.pi * highest_frequency) ** 2)
     return np.sign(values) * np.sqrt(np.abs(values)) / (2.0 * np.pi)
 
 
-def modes(model, highest_frequency=np.inf, zero_below=1e-3):
+def modes(model: LinearModel, highest_frequency: float = np.inf, zero_below: float = 1e-3) -> list[Mode]:
     """Return the damped modes of a tree about its equilibrium.
 
     Parameters
@@ -102,6 +132,21 @@ def modes(model, highest_frequency=np.inf, zero_below=1e-3):
     ------
     ValueError
         The model is not at rest.
+
+    Examples
+    --------
+    The same pendulum with a damper of 0.5 N m s/rad in its hinge.
+
+    >>> import numpy as np
+    >>> from trackvib_sim import rui
+    >>> rod = rui.Hinge(1, "revolute", "base", place=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
+    >>> bodies = [
+    ...     rui.Body(0, "base", 1.0, (0.0, 0.0, 0.0), np.eye(3)),
+    ...     rui.Body(1, "arm", 2.0, (0.0, 0.0, -0.5), 0.1 * np.eye(3), rod),
+    ... ]
+    >>> model = rui.LinearModel(bodies, rui.rest_state(bodies), damping=[0.0, 0.5], fixed_root=True)
+    >>> [(round(mode.frequency, 4), round(mode.damping_ratio, 4)) for mode in rui.modes(model)]
+    [(0.6435, 0.103)]
     """
     tree = check_equilibrium(model)
     dampers = [tree.damping, tree.hinge_damping] + [bushing.child_rate for bushing in tree.bushings.values()]

@@ -12,13 +12,15 @@ the axis rows as equations makes the equation regular for every physical table (
 reference form: dense, slow and easy to look at.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import lu_factor, lu_solve
 
-from ..state import Accelerations
+from ..state import Accelerations, Loads, TreeState
+from ..table import Body
 from .elements import AL, ONE, A, M, Q
 from .matrices import TableMatrices, table_matrices
 
@@ -141,8 +143,28 @@ def overall_transfer(bodies, state, loads, gravity=(0.0, 0.0, -9.81)):
                            output_of_hinge=output_of_hinge)  # fmt: skip
 
 
-def form_a(bodies, state, loads, gravity=(0.0, 0.0, -9.81)):
-    """Return the `Accelerations` of a table by Form A; parameters as of `overall_transfer`."""
+def form_a(
+    bodies: Sequence[Body], state: TreeState, loads: Loads, gravity: Sequence[float] = (0.0, 0.0, -9.81)
+) -> Accelerations:
+    """Return the `Accelerations` of a table by Form A; parameters as of `overall_transfer`.
+
+    Examples
+    --------
+    A torque of 5 N m turns an arm that hangs in free fall.
+
+    >>> import numpy as np
+    >>> from trackvib_sim import rui
+    >>> rod = rui.Hinge(1, "revolute", "base", place=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
+    >>> bodies = [
+    ...     rui.Body(0, "base", 1.0, (0.0, 0.0, 0.0), np.eye(3)),
+    ...     rui.Body(1, "arm", 2.0, (0.0, 0.0, -0.5), 0.1 * np.eye(3), rod),
+    ... ]
+    >>> loads = rui.no_loads(bodies)
+    >>> loads.torque[1] = 5.0
+    >>> found = rui.form_a(bodies, rui.rest_state(bodies), loads)
+    >>> round(float(found.hinge[1]), 6)  # rad/s^2
+    23.75
+    """
     transfer = overall_transfer(bodies, state, loads, gravity)
     return transfer.accelerations(transfer.solve())
 

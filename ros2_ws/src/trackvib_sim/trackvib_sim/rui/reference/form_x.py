@@ -8,11 +8,14 @@ because all bodies have inertia (derived in docs/method.md). Eliminating with th
 also keeps the size, fails where consecutive axes are perpendicular.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
+from ..state import Accelerations, Loads, TreeState
+from ..table import Body
 from .elements import ONE
 from .form_a import OverallTransfer, overall_transfer, solve_equilibrated
 
@@ -93,8 +96,28 @@ def form_x_transfer(transfer):
     return FormXTransfer(transfer, system[:, :-1], -system[:, -1], equations, tips, exchanges)
 
 
-def form_x(bodies, state, loads, gravity=(0.0, 0.0, -9.81)):
-    """Return the `Accelerations` of a table by Form X; parameters as of `overall.overall_transfer`."""
+def form_x(
+    bodies: Sequence[Body], state: TreeState, loads: Loads, gravity: Sequence[float] = (0.0, 0.0, -9.81)
+) -> Accelerations:
+    """Return the `Accelerations` of a table by Form X; parameters as of `overall.overall_transfer`.
+
+    Examples
+    --------
+    A torque of 5 N m turns an arm that hangs in free fall.
+
+    >>> import numpy as np
+    >>> from trackvib_sim import rui
+    >>> rod = rui.Hinge(1, "revolute", "base", place=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
+    >>> bodies = [
+    ...     rui.Body(0, "base", 1.0, (0.0, 0.0, 0.0), np.eye(3)),
+    ...     rui.Body(1, "arm", 2.0, (0.0, 0.0, -0.5), 0.1 * np.eye(3), rod),
+    ... ]
+    >>> loads = rui.no_loads(bodies)
+    >>> loads.torque[1] = 5.0
+    >>> found = rui.form_x(bodies, rui.rest_state(bodies), loads)
+    >>> round(float(found.hinge[1]), 6)  # rad/s^2
+    23.75
+    """
     transfer = overall_transfer(bodies, state, loads, gravity)
     return transfer.accelerations(form_x_transfer(transfer).solve())
 

@@ -1,0 +1,31 @@
+# the vehicle
+from .data import default_vehicle_file as default_vehicle_file
+from .vehicle.parameters import Vehicle as Vehicle
+from .vehicle.system import Operation as Operation
+from .vehicle.vehicle_file import VehicleFileError as VehicleFileError
+from .vehicle.vehicle_file import read_vehicle as read_vehicle
+
+# roads
+from .road.bump import Bump as Bump
+from .road.iso8608 import Iso8608Road as Iso8608Road
+
+# simulation; control laws come from `mr_mount_controller.laws`
+from .simulation.closed_loop import Record as Record
+from .simulation.closed_loop import run_closed_loop as run_closed_loop
+from .simulation.open_loop import OpenLoopRecord as OpenLoopRecord
+from .simulation.open_loop import run_open_loop as run_open_loop
+from .simulation.settings import Rates as Rates
+from .simulation.settings import RunSettings as RunSettings
+from .simulation.simulation import Probe as Probe
+from .simulation.simulation import RunFailed as RunFailed
+from .simulation.simulation import Simulation as Simulation
+
+# bags, and what they say
+from .bags.errors import BagError as BagError
+from .bags.reading import read_recording as read_recording
+from .bags.recording import Recording as Recording
+from .analysis.bag_analysis import analyse as analyse
+from .analysis.numbers import Analysis as Analysis
+
+# the method
+from . import rui as rui
