@@ -28,7 +28,7 @@ analysis = tv.analyse(tv.read_recording(sys.argv[1]))
 print(analysis.sensors["powertrain"]["z"].rms > 0.0)
 print(sorted(name for name in ("rclpy", "matplotlib", "click") if name in sys.modules))
 """
-WITHOUT_EXTRA = "import trackvib_sim.studies.workers"
+WITHOUT_EXTRA = "import trackvib_sim.studies.case"
 
 
 @pytest.fixture(scope="module")
@@ -36,7 +36,9 @@ def bare(tmp_path_factory):
     """A function that runs Python in the new environment: `bare(arguments)`."""
     folder = tmp_path_factory.mktemp("bare environment")
     for package in PACKAGES:  # pip builds beside the sources
-        shutil.copytree(SOURCES / package, folder / package, ignore=shutil.ignore_patterns("build", "*.egg-info", "test"))
+        shutil.copytree(
+            SOURCES / package, folder / package, ignore=shutil.ignore_patterns("build", "*.egg-info", "test")
+        )
     environment = {name: os.environ[name] for name in KEPT if name in os.environ} | {
         name: value for name, value in os.environ.items() if name.startswith("PIP_") or name.lower().endswith("_proxy")
     }

@@ -1,1 +1,5 @@
 """Studies: many runs of the whole vehicle, set beside published results. No ROS."""
+
+from ..extras import require
+
+require("studies", "cma", "distributed", "matplotlib", "pinocchio", "rich")

@@ -14,6 +14,7 @@ from .case import Case, Result
 PACKAGE = Path(__file__).parents[1]
 DECISIVE = (  # modules that `drive` runs; all others may change without making its results void
     "data/__init__.py",
+    "extras.py",
     "numerics/**/*.py",
     "rui/**/*.py",
     "road/**/*.py",
