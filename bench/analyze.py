@@ -26,7 +26,7 @@ from rich.console import Console
 from rich.table import Table
 from rosbags.highlevel import AnyReader
 from trackvib_msgs.msg import RoadProfile
-from trackvib_sim.analysis.bag_analysis import analyse
+from trackvib_sim.analysis.analyse import analyse
 from trackvib_sim.analysis.bag_tables import write_tables
 from trackvib_sim.analysis.report.page import write_report
 from trackvib_sim.analysis.report.report_data import build_report_data

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy import signal
 from trackvib_sim.analysis import mean_spectra
-from trackvib_sim.analysis.mean_spectra import MeanSpectra, known_lines
+from trackvib_sim.analysis.lines import known_lines
+from trackvib_sim.analysis.mean_spectra import MeanSpectra
 from trackvib_sim.analysis.vibration import psd
 
 RATE = 1000.0

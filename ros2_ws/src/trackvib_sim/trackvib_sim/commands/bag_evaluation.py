@@ -8,12 +8,12 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
-from ..analysis.bag_analysis import analyse
+from ..analysis.analyse import analyse
 from ..analysis.bag_tables import write_tables
 from ..analysis.levels import WEIGHTINGS
+from ..analysis.numbers import AXES
 from ..analysis.report.page import write_report
 from ..analysis.report.report_data import build_report_data
-from ..analysis.summary import AXES
 from ..bags.files import bag_files
 from ..bags.reading import read_recording
 from .result_folder import CommandError, all_or_nothing

@@ -13,10 +13,13 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
-from ..analysis.bag_analysis import analyse
+from ..analysis.analyse import analyse
+from ..analysis.numbers import AXES, SENSORS
+from ..analysis.picture_data import prepare
 from ..analysis.plots import run_picture
+from ..analysis.segments import SHORTEST_MEASURING
 from ..analysis.settling import settling_time
-from ..analysis.summary import AXES, SENSORS, SHORTEST_MEASURING, prepare, summarise
+from ..analysis.summary import summarise
 from ..bags.errors import BagError
 from ..bags.reading import read_recording
 from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses, closed_loop_parameters

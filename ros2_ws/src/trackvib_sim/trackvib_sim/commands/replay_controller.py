@@ -7,7 +7,7 @@ import numpy as np
 from mr_mount_controller.node_base.qos import LOOP_WRITER_QOS
 
 from ..analysis.replay_pictures import currents_picture
-from ..analysis.segments import period_of
+from ..analysis.stamps import period_of
 from ..bags.copying import copy_bag
 from ..bags.errors import BagError
 from ..bags.files import called

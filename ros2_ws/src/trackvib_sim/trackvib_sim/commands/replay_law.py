@@ -7,9 +7,13 @@ from mr_mount_controller.laws import find_law
 from mr_mount_controller.node_base import topics
 from rich.table import Table
 
-from ..analysis.bag_analysis import analyse
+from ..analysis.analyse import analyse
+from ..analysis.numbers import AXES, SENSORS
+from ..analysis.picture_data import prepare
 from ..analysis.replay_pictures import drives_picture
-from ..analysis.summary import AXES, SENSORS, TooShort, prepare, start_of, summarise
+from ..analysis.segments import TooShort
+from ..analysis.stamps import start_of
+from ..analysis.summary import summarise
 from ..bags.copying import copy_bag
 from ..bags.files import called
 from ..bags.provenance import PARAMETERS_OF, parameters_with, write_parameters, write_versions

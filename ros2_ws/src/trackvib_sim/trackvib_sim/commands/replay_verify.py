@@ -5,8 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..analysis.numbers import SIDES
-from ..analysis.summary import AXES
+from ..analysis.numbers import AXES, SIDES
 from ..bags.reading import COLUMNS, read_recording
 from ..bags.versions import versions
 from ..nodes.simulator_parameters import prepare_again

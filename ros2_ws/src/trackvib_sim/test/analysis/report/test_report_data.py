@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from trackvib_sim.analysis.bag_analysis import analyse
+from trackvib_sim.analysis.analyse import analyse
 from trackvib_sim.analysis.report.report_data import COLUMNS, build_report_data, spectrogram
 from trackvib_sim.analysis.report.thinning import MOST, thinned
 

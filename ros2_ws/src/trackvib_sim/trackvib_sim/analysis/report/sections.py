@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from ..summary import AXES, SENSORS
+from ..numbers import AXES, SENSORS
 from . import bag_figures, comparison_figures, comparison_tables, spectrogram_figures, tables
 from .differences import differing
 from .thinning import MOST

@@ -6,7 +6,7 @@ import numpy as np
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
-from ...analysis.summary import SENSORS
+from ...analysis.numbers import SENSORS
 from ...data import default_vehicle_file
 from ...road.iso8608 import FADE, Iso8608Road
 from ...simulation.simulation import RunFailed

@@ -6,10 +6,12 @@ import json
 import numpy as np
 import pytest
 from pyarrow import parquet
-from trackvib_sim.analysis.bag_analysis import analyse, settling_of
+from trackvib_sim.analysis.analyse import analyse
 from trackvib_sim.analysis.bag_tables import rows, write_tables
+from trackvib_sim.analysis.picture_data import prepare
 from trackvib_sim.analysis.report.report_data import build_report_data
-from trackvib_sim.analysis.summary import TooShort, prepare, summarise
+from trackvib_sim.analysis.segments import TooShort, settling_of
+from trackvib_sim.analysis.summary import summarise
 from trackvib_sim.analysis.vibration import rms
 
 from .made_recordings import MS, made_recording
