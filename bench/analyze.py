@@ -54,8 +54,8 @@ DECODED = 100_000  # messages, by the peer
 def rare_messages():
     """Return type, distance in periods, and a message by topic."""
     heights = np.zeros(100)
-    told = [KeyValue(key=name, value="0") for name in ("silent_periods", *map(str, range(30)))]
-    status = DiagnosticArray(status=[DiagnosticStatus(name="simulator", values=told)])
+    values = [KeyValue(key=name, value="0") for name in ("silent_periods", *map(str, range(30)))]
+    status = DiagnosticArray(status=[DiagnosticStatus(name="simulator", values=values)])
     road = RoadProfile(spacing=0.05, left=heights, right=heights)
     return {
         "/diagnostics": ("diagnostic_msgs/msg/DiagnosticArray", 100, serialize_message(status)),

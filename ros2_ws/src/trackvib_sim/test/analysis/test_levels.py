@@ -1,4 +1,4 @@
-"""Levels of long stretches: sines of known level, and blocks that do not show."""
+"""Levels of long segments: sines of known level, and blocks that do not show."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ MS = 1_000_000  # ns
 
 
 def levels_of(acceleration, measured, rate=RATE):
-    """Return numbers of x, y, z and history of one stretch from the start on."""
+    """Return numbers of x, y, z and history of one segment from the start on."""
     stamp = np.arange(1, len(acceleration) + 1) * round(1e9 / rate)
     found = Levels(rate, build_bins(0, int(stamp[-1])))
     for _ in found.add(stamp, acceleration, measured):
@@ -55,7 +55,7 @@ def test_running_rms_finds_the_burst():
 
 @pytest.mark.property
 def test_blocks_do_not_show(monkeypatch):
-    """A stretch is cut into blocks, yet its numbers are those of filters that run through in one go."""
+    """A segment is cut into blocks, yet its numbers are those of filters that run through in one go."""
     random = np.random.default_rng(5)
     acceleration = np.cumsum(random.normal(scale=0.02, size=(95_500, 3)), axis=0) + random.normal(size=(95_500, 3))
     measured = 3000

@@ -12,7 +12,7 @@ RATE = 1000.0
 
 
 def spectra_of(chassis, powertrain):
-    """Return the spectra of one stretch."""
+    """Return the spectra of one segment."""
     found = MeanSpectra(RATE)
     found.add(chassis, powertrain)
     return found.spectra()

@@ -77,10 +77,10 @@ def _information(summaries):
 def _offered_qos(channel):
     """Return a channel's QoS records; none where there is no readable text of them."""
     try:
-        told = yaml.safe_load(channel.metadata.get("offered_qos_profiles", ""))
+        profiles = yaml.safe_load(channel.metadata.get("offered_qos_profiles", ""))
     except (yaml.YAMLError, ValueError, LookupError, AttributeError, RecursionError):
         return []  # of other tools it may be anything
-    return told if isinstance(told, list) else []
+    return profiles if isinstance(profiles, list) else []
 
 
 def _span(statistics):

@@ -100,7 +100,7 @@ class _Reading:
 
     def __init__(self):
         self._columns, self._roads, self._vehicles = {}, {}, {}  # by topic
-        self._told, self._diagnostics = [], {}
+        self._loop_counts, self._diagnostics = [], {}
         self._provenance, self._counts, self._complete = {}, Counter(), True
 
     def read(self, file, on_progress):
@@ -145,12 +145,12 @@ class _Reading:
                 self._take_diagnostics(message)
 
     def _take_diagnostics(self, message):
-        told = {pair.key: pair.value for each in message.status if each.name == "simulator" for pair in each.values}
-        self._diagnostics |= told
-        if "silent_periods" in told:
+        values = {pair.key: pair.value for each in message.status if each.name == "simulator" for pair in each.values}
+        self._diagnostics |= values
+        if "silent_periods" in values:
             stamp = message.header.stamp
-            answers = sum(int(told.get(outcome, 0)) for outcome in _ANSWERS)
-            self._told.append((stamp.sec * NANO + stamp.nanosec, int(told["silent_periods"]), answers))
+            answers = sum(int(values.get(outcome, 0)) for outcome in _ANSWERS)
+            self._loop_counts.append((stamp.sec * NANO + stamp.nanosec, int(values["silent_periods"]), answers))
 
     def recording(self, path):
         """Return it all."""
@@ -171,7 +171,7 @@ class _Reading:
         }
         columns = {end: self._columns[topics[end]].columns() if end in topics else None for end in COLUMNS}
         # the first word of the next run may be among the last ones of this
-        told = np.array(sorted(self._told), np.int64).reshape(-1, 3)
+        counts = np.array(sorted(self._loop_counts), np.int64).reshape(-1, 3)
         return Recording(
             path=path,
             topics=topics,
@@ -182,7 +182,7 @@ class _Reading:
             odometry=columns["odometry"],
             road=self._roads.get(topics.get("road_profile"), []),
             vehicle=self._vehicles.get(topics.get("vehicle_description")),
-            told=LoopCounts(*told.T),
+            loop_counts=LoopCounts(*counts.T),
             diagnostics=self._diagnostics,
             provenance=self._provenance,
             counts=self._counts,

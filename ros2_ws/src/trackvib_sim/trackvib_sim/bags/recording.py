@@ -49,7 +49,7 @@ class Odometry(NamedTuple):
 
 
 class LoopCounts(NamedTuple):
-    """What the simulator told of its loop, in the order of its time."""
+    """What the simulator counted in its loop, in the order of its time."""
 
     stamp: np.ndarray  # (d,) ns
     silent_periods: np.ndarray  # (d,) up to then
@@ -77,7 +77,7 @@ class Recording(NamedTuple):
     odometry: Odometry | None
     road: list  # of patches (start, spacing, left, right), m
     vehicle: str | None  # text of the vehicle file
-    told: LoopCounts
+    loop_counts: LoopCounts
     diagnostics: dict  # last values of the simulator, as text
     provenance: dict  # metadata records of the bag: name -> dict of text
     counts: Counter  # messages a topic

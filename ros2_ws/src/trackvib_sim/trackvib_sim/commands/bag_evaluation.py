@@ -45,8 +45,8 @@ def run_analyze(bags, settle, out):
         write_tables(analyses, folder)
         write_report(report_data_list, folder / "report.html")
     for number, analysis in enumerate(analyses, 1):
-        told = f"{analysis.duration:g} s, of which {analysis.measured:g} s count, after {analysis.settle:g} s"
-        console.print(f"bag {number}: {analysis.bag}: {told}", soft_wrap=True)
+        length = f"{analysis.duration:g} s, of which {analysis.measured:g} s count, after {analysis.settle:g} s"
+        console.print(f"bag {number}: {analysis.bag}: {length}", soft_wrap=True)
         for note in analysis.notes:
             console.print(f"  {note}", soft_wrap=True)
     for table in (_levels(analyses), _lines(analyses), _mounts(analyses)):

@@ -62,8 +62,8 @@ def _replay_into_bag(recording, law, folder, console):
     writer = BagWriter(folder / "bag")
     try:
         copy_bag(recording.path, writer)
-        for name, told in recording.provenance.items():
-            writer.add_provenance(name, told)
+        for name, values in recording.provenance.items():
+            writer.add_provenance(name, values)
         writer.add_provenance("replay", {"bag": recording.path, "controller": law or "external"})
         return _replay(recording, law, writer, folder, console)
     finally:

@@ -113,9 +113,9 @@ def _describe(writer, recording, controller, law, chosen):
         own = {parameter.name: getattr(chosen, parameter.name) for parameter in chosen.parameters}
         write_parameters(writer, controller, {"law": law, **own})
     replaced = ("versions", "replay", f"{PARAMETERS_OF}{controller}")
-    for name, told in recording.provenance.items():
+    for name, values in recording.provenance.items():
         if name not in replaced:
-            writer.add_provenance(name, told)
+            writer.add_provenance(name, values)
 
 
 def _between(recording, begin, last, other):
@@ -134,7 +134,7 @@ def _between(recording, begin, last, other):
             kept &= np.isin(columns[0], getattr(other, part).stamp)
         cut[part] = type(columns)(*(column[kept] for column in columns)) if kept.any() else None
     # when the whole run ended says nothing about a part of it
-    diagnostics = {key: told for key, told in recording.diagnostics.items() if key != "time"}
+    diagnostics = {key: text for key, text in recording.diagnostics.items() if key != "time"}
     return recording._replace(diagnostics=diagnostics, **cut)
 
 

@@ -63,7 +63,7 @@ def test_spectrogram_is_empty_where_samples_are_missing():
 
 
 @pytest.mark.property
-def test_excerpt_of_a_long_bag_is_small():
+def test_report_data_of_a_long_bag_is_small():
     """Lines and spectrograms do not grow with the bag."""
     recording = made_recording(np.arange(1, 200_001))
     found = build_report_data(recording, analyse(recording))

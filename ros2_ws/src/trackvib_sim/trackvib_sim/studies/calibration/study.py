@@ -33,7 +33,7 @@ def run_calibrate(plan_file, vehicle_file, generations, scheduler, out):
     generations : int or None
         How many the search has in all, with those done earlier; None for the plan's number.
     scheduler : str or None
-        As `farm.farm` takes it.
+        As `workers.workers` takes it.
     out : path-like
 
     Raises

@@ -31,11 +31,11 @@ def run_controllers(laws, scenarios, seeds, vehicle_file, scheduler, out):
     laws : sequence of str, or None
         As `find_law` takes them; None for all that are known.
     scenarios : sequence of str
-        Names in `controlled.SCENARIOS`.
+        Names in `scenario.SCENARIOS`.
     seeds : int
         Number of runs a scenario that varies, each with its own road and track phase.
     vehicle_file, scheduler, out
-        As `table1.perform` takes them.
+        As `table1.run_table1` takes them.
 
     Raises
     ------

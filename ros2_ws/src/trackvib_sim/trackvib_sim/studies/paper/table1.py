@@ -32,7 +32,7 @@ def run_table1(classes, speeds, seeds, vehicle_file, scheduler, out):
     vehicle_file : path-like or None
         None for the vehicle that comes with the package.
     scheduler : str or None
-        As `farm.farm` takes it.
+        As `workers.workers` takes it.
     out : path-like
 
     Raises
