@@ -1,0 +1,99 @@
+"""What README and docs/ show as printed is what the commands print; their Python blocks run."""
+
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+
+from .conftest import free_domain
+from .documents import DOCUMENTS, ROOT, renew
+
+# By how much a number may differ, beside one unit of its last digit. Contacts of the tracks amplify rounding, which is
+# another one on another kind of processor; with the track phase changed by 1e-12 runs scatter that much.
+SCATTER = {"run": 0.1, "study": 0.1, "modes": 0.0}
+OF_THE_MOMENT = ("finished", "runs ", "pace:", "left in", "picture")  # lines of progress, pace and places
+NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?%?")
+
+pytestmark = pytest.mark.system
+
+
+def shown():
+    """All blocks of output in the documents as pytest's parameters; those that take longer than a run are slow."""
+    for path in renew.documents():
+        for block in renew.blocks(path.read_text(encoding="utf-8")):
+            if block.kind == "output":
+                yield pytest.param(block, id=block.source.replace("./", ""))
+
+
+def compared(text):
+    """Return what is to be compared: lines without those of the moment and without the frames of tables."""
+    lines = (re.sub(r"[\u2500-\u257f\s]+", " ", line).strip() for line in text.splitlines())
+    return [line for line in lines if line and not line.startswith(("```", *OF_THE_MOMENT))]
+
+
+def alike(shown, printed, scatter):
+    """Whether two lines have the same words, and numbers that differ by no more than they may.
+
+    Whole numbers count or choose and must be the same; parts in percent may differ by one.
+    """
+    if NUMBER.sub("#", shown) != NUMBER.sub("#", printed):
+        return False
+    return all(
+        abs(float(a.rstrip("%")) - float(b.rstrip("%"))) <= _allowed(a, scatter) * (1.0 + 1e-9)
+        for a, b in zip(NUMBER.findall(shown), NUMBER.findall(printed), strict=True)
+    )
+
+
+def _allowed(number, scatter):
+    if number.endswith("%"):
+        return 1.0
+    digits = len(number.partition(".")[2])
+    return 10.0**-digits + scatter * abs(float(number)) if digits else 0.0
+
+
+@pytest.mark.parametrize("block", shown())
+def test_output_is_what_the_command_prints(block, tmp_path):
+    """The words are the same, and the numbers but for scatter; `python docs/renew.py` renews them."""
+    scatter = SCATTER[block.source.split()[1]]
+    with free_domain() as domain:
+        now = compared(renew.printed(block.source, tmp_path, domain))
+    before = compared(block.content)
+    assert len(before) > 3
+    for old, new in zip(before, now, strict=True):
+        assert alike(old, new, scatter), f"the document has\n{old}\nand the command prints\n{new}"
+
+
+@pytest.mark.parametrize(
+    ("shown", "printed", "scatter", "same"),
+    [
+        ("chassis 3.467 2.353", "chassis 3.567 2.353", 0.05, True),
+        ("chassis 3.467 2.353", "chassis 3.667 2.353", 0.05, False),
+        ("chassis 3.467 2.353", "chassis 3.468 2.353", 0.0, True),
+        ("chassis 3.467 2.353", "chassis 3.469 2.353", 0.0, False),
+        ("lost 0 of 10000", "lost 1 of 10000", 0.05, False),
+        ("whole heave 52%", "whole heave 53%", 0.0, True),
+        ("whole heave 52%", "whole pitch 52%", 0.0, False),
+        ("+32.4 stored", "-32.4 stored", 0.05, False),
+    ],
+)
+def test_comparison_sees_what_differs(shown, printed, scatter, same):
+    """Words, counts and numbers beyond their scatter tell; rounding does not."""
+    assert alike(shown, printed, scatter) == same
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+def test_python_blocks_run(document, recorded_run, tmp_path):
+    """The blocks of a document, one after the other in one program; the README's controller has a test of its own."""
+    blocks = re.findall(r"^```python\n(.*?)^```", document.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    program = "\n".join(block for block in blocks if "rclpy.spin" not in block)
+    if not program:
+        pytest.skip("has no Python that ends by itself")
+    (tmp_path / "runs").mkdir()
+    (tmp_path / "runs" / "first").symlink_to(recorded_run)
+    (tmp_path / "program.py").write_text(program, encoding="utf-8")
+    paths = [str(ROOT / "docs" / "examples" / "my_controller"), os.environ.get("PYTHONPATH", "")]
+    env = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
+    done = subprocess.run([sys.executable, "program.py"], cwd=tmp_path, env=env, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
