@@ -11,7 +11,9 @@ ARCHITECTURE = Path(__file__).parents[1] / "docs" / "architecture.md"
 PACKAGES = ("mr_mount_controller", "trackvib_sim")  # the second may import the first
 ROS = {"rclpy", "rcl_interfaces", "builtin_interfaces", "launch", "launch_ros"}
 ROS_SUFFIX = "_msgs"
-IMPORTING_ROS = re.compile(r"trackvib_sim\.nodes\..*|mr_mount_controller\.(node|node_base\.(loop_node|packed_message|qos))")
+IMPORTING_ROS = re.compile(
+    r"trackvib_sim\.nodes\..*|mr_mount_controller\.(node|node_base\.(loop_node|packed_message|qos))"
+)
 OUTSIDE = {"trackvib_sim.compile_kernels"}  # a step of the set-up, not a room
 
 pytestmark = pytest.mark.property

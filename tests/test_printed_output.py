@@ -20,11 +20,22 @@ pytestmark = pytest.mark.system
 
 
 def shown():
-    """All blocks of output in the documents as pytest's parameters; those that take longer than a run are slow."""
+    """Give all blocks of output in the documents as pytest's parameters."""
     for path in renew.documents():
         for block in renew.blocks(path.read_text(encoding="utf-8")):
             if block.kind == "output":
                 yield pytest.param(block, id=block.source.replace("./", ""))
+
+
+def python(document):
+    """Return the Python blocks of a document but the README's controller, which has no end and a test of its own."""
+    blocks = re.findall(r"^```python\n(.*?)^```", document.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    return "\n".join(block for block in blocks if "rclpy.spin" not in block)
+
+
+def programs():
+    """Give the documents with Python in them as pytest's parameters."""
+    return (pytest.param(path, id=path.name) for path in DOCUMENTS if python(path))
 
 
 def compared(text):
@@ -53,7 +64,8 @@ def _allowed(number, scatter):
     return 10.0**-digits + scatter * abs(float(number)) if digits else 0.0
 
 
-@pytest.mark.parametrize("block", shown())
+@pytest.mark.slow(reason="a whole run in real processes, and a study of 27 drives")
+@pytest.mark.parametrize("block", list(shown()))
 def test_output_is_what_the_command_prints(block, tmp_path):
     """The words are the same, and the numbers but for scatter; `python docs/renew.py` renews them."""
     scatter = SCATTER[block.source.split()[1]]
@@ -83,16 +95,12 @@ def test_comparison_sees_what_differs(shown, printed, scatter, same):
     assert alike(shown, printed, scatter) == same
 
 
-@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+@pytest.mark.parametrize("document", list(programs()))
 def test_python_blocks_run(document, recorded_run, tmp_path):
-    """The blocks of a document, one after the other in one program; the README's controller has a test of its own."""
-    blocks = re.findall(r"^```python\n(.*?)^```", document.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
-    program = "\n".join(block for block in blocks if "rclpy.spin" not in block)
-    if not program:
-        pytest.skip("has no Python that ends by itself")
+    """The blocks of a document, one after the other in one program."""
     (tmp_path / "runs").mkdir()
     (tmp_path / "runs" / "first").symlink_to(recorded_run)
-    (tmp_path / "program.py").write_text(program, encoding="utf-8")
+    (tmp_path / "program.py").write_text(python(document), encoding="utf-8")
     paths = [str(ROOT / "docs" / "examples" / "my_controller"), os.environ.get("PYTHONPATH", "")]
     env = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
     done = subprocess.run([sys.executable, "program.py"], cwd=tmp_path, env=env, capture_output=True, text=True)

@@ -60,11 +60,19 @@ TOPICS = (
     ),
     Topic(ODOMETRY, "nav_msgs/msg/Odometry", "simulator", "100 Hz", "Pose and velocity of the hull."),
     Topic(
-        ROAD_PROFILE, "trackvib_msgs/msg/RoadProfile", "road_excitation", "on demand", "Patches of road, left and right."
+        ROAD_PROFILE,
+        "trackvib_msgs/msg/RoadProfile",
+        "road_excitation",
+        "on demand",
+        "Patches of road, left and right.",
     ),
     Topic(VEHICLE_DESCRIPTION, "std_msgs/msg/String", "simulator", "once", "The vehicle file in use."),
     Topic(
-        RECORDED, "builtin_interfaces/msg/Time", "recorder", "as it writes", "Time up to which the bag holds everything."
+        RECORDED,
+        "builtin_interfaces/msg/Time",
+        "recorder",
+        "as it writes",
+        "Time up to which the bag holds everything.",
     ),
     Topic(CLOCK, "rosgraph_msgs/msg/Clock", "simulator", "100 Hz", "Simulated time."),
     Topic(

@@ -10,7 +10,6 @@ from trackvib_sim.drawings.vehicle_table import figures, longest_step, parameter
 from trackvib_sim.vehicle.vehicle_file import parse_vehicle
 
 
-
 @pytest.fixture(scope="module")
 def text():
     """The shipped vehicle file."""
