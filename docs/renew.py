@@ -2,14 +2,16 @@
 
     ./trackvib exec -- python docs/renew.py [DOCUMENT ...]
 
-renews README.md and docs/*.md, or the documents given. Between `<!-- table of: NAME -->` and `<!-- end -->` stands a
-table of `code_tables.py`, between `<!-- output of: COMMAND -->` and `<!-- end -->` what a command prints, in a fence.
-`tests/test_documents.py` and `tests/test_printed_output.py` fail where either is no longer so.
+renews README.md and docs/*.md, or the documents given. It makes anew what stands between `<!-- KIND of: SOURCE -->` and
+`<!-- end -->`: a `table` of `code_tables.py` by its name, the `output` of a command in a fence, or the `picture` that a
+command leaves under the name that the document shows. `tests/test_documents.py` and `tests/test_printed_output.py` fail
+where the document has something else.
 """
 
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -19,14 +21,14 @@ from typing import NamedTuple
 from code_tables import TABLES
 
 ROOT = Path(__file__).resolve().parents[1]
-MARKED = re.compile(r"<!-- (table|output) of: (.+?) -->\n(.*?)<!-- end -->\n", re.DOTALL)
+MARKED = re.compile(r"<!-- (table|output|picture) of: (.+?) -->\n(.*?)<!-- end -->\n", re.DOTALL)
 TIME_LIMIT = 600  # s, for a command that hangs
 
 
 class Block(NamedTuple):
     """A part of a document that is made by a program."""
 
-    kind: str  # table or output
+    kind: str  # table, output or picture
     source: str  # name of the table, or command
     content: str
 
@@ -45,7 +47,7 @@ def blocks(text):
         A mark stands without the other one of its pair.
     """
     found = [Block(*match) for match in MARKED.findall(text)]
-    begins, ends = (len(re.findall(mark, text)) for mark in (r"<!-- (?:table|output) of: ", r"<!-- end -->"))
+    begins, ends = (len(re.findall(mark, text)) for mark in (r"<!-- (?:table|output|picture) of: ", r"<!-- end -->"))
     if not begins == ends == len(found):
         raise ValueError(f"{begins} marks begin a block and {ends} end one, must be pairs")
     return found
@@ -57,47 +59,74 @@ def markdown(rows):
     return "".join(f"| {' | '.join(row)} |\n" for row in (head, ["---"] * len(head), *others))
 
 
-def printed(command, folder, domain=None):
-    """Return what a command of the documents prints when it runs in a folder, without blanks at the ends of lines.
+class Commands:
+    """Runs each command of the documents once, in a folder of its own below `top`."""
 
-    Raises
-    ------
-    ValueError
-        It fails.
-    """
-    words = shlex.split(command)
-    if words[0] == "./trackvib":
-        words[0] = str(ROOT / "trackvib")
-    env = {**os.environ, "COLUMNS": "100", "TERM": "dumb"}
-    if domain is not None:
-        env["ROS_DOMAIN_ID"] = str(domain)
-    done = subprocess.run(words, cwd=folder, env=env, capture_output=True, text=True, timeout=TIME_LIMIT)
-    if done.returncode:
-        raise ValueError(f"{command} ended with exit code {done.returncode}:\n{done.stdout}{done.stderr}")
-    return "".join(f"{line.rstrip()}\n" for line in done.stdout.splitlines())
+    def __init__(self, top, **environment):
+        self._top = Path(top)
+        self._env = {**os.environ, "COLUMNS": "100", "TERM": "dumb", **environment}
+        self._done = {}
+
+    def run(self, command):
+        """Return what a command prints, without blanks at the ends of lines, and the folder in which it ran.
+
+        Raises
+        ------
+        ValueError
+            It fails.
+        """
+        if command not in self._done:
+            words = shlex.split(command)
+            if words[:2] == ["./trackvib", "exec"]:
+                words = words[words.index("--") + 1 :]
+            elif words[0] == "./trackvib":
+                words[0] = str(ROOT / "trackvib")
+            folder = self._top / str(len(self._done))
+            folder.mkdir()
+            done = subprocess.run(words, cwd=folder, env=self._env, capture_output=True, text=True, timeout=TIME_LIMIT)
+            if done.returncode:
+                raise ValueError(f"{command} ended with exit code {done.returncode}:\n{done.stdout}{done.stderr}")
+            self._done[command] = "".join(f"{line.rstrip()}\n" for line in done.stdout.splitlines()), folder
+        return self._done[command]
 
 
-def renewed(text):
-    """Return a document with every block made anew."""
+def shown_picture(block, document):
+    """Return the path of the picture that a block of a document shows."""
+    return document.parent / re.search(r"]\((.+?)\)", block.content)[1]
+
+
+def made_picture(block, document, commands):
+    """Return the path of the picture that a block's command leaves under the name that the document shows."""
+    name = shown_picture(block, document).name
+    (path,) = commands.run(block.source)[1].rglob(name)
+    return path
+
+
+def renew(document, commands):
+    """Make every block of a document anew."""
 
     def anew(match):
-        kind, source, _ = match.groups()
-        if kind == "table":
-            content = markdown(TABLES[source]())
+        block = Block(*match.groups())
+        content = block.content
+        if block.kind == "table":
+            content = markdown(TABLES[block.source]())
+        elif block.kind == "output":
+            content = f"```text\n{commands.run(block.source)[0]}```\n"
         else:
-            with tempfile.TemporaryDirectory() as folder:
-                content = f"```text\n{printed(source, folder)}```\n"
-        return f"<!-- {kind} of: {source} -->\n{content}<!-- end -->\n"
+            shutil.copyfile(made_picture(block, document, commands), shown_picture(block, document))
+        return f"<!-- {block.kind} of: {block.source} -->\n{content}<!-- end -->\n"
 
+    text = document.read_text(encoding="utf-8")
     blocks(text)
-    return MARKED.sub(anew, text)
+    document.write_text(MARKED.sub(anew, text), encoding="utf-8")
 
 
 def main():
     """Renew documents."""
-    for path in [Path(word) for word in sys.argv[1:]] or documents():
-        text = path.read_text(encoding="utf-8")
-        path.write_text(renewed(text), encoding="utf-8")
+    with tempfile.TemporaryDirectory() as top:
+        commands = Commands(top)
+        for document in [Path(word) for word in sys.argv[1:]] or documents():
+            renew(document, commands)
 
 
 if __name__ == "__main__":

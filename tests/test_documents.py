@@ -2,6 +2,7 @@
 
 import importlib
 import re
+import sys
 from importlib.util import find_spec
 
 import pytest
@@ -66,18 +67,30 @@ def test_cells_keep_their_signs():
     assert renew.markdown([("a", "b"), ("x|y", "<z>")]) == "| a | b |\n| --- | --- |\n| x\\|y | \\<z> |\n"
 
 
-def test_only_blocks_are_renewed():
-    """What stands around the marks stays."""
-    document = renew.renewed("before\n<!-- table of: mount -->\nold\n<!-- end -->\nafter\n")
-    assert document.startswith("before\n<!-- table of: mount -->\n| current, A |")
-    assert document.endswith("<!-- end -->\nafter\n") and "\nold\n" not in document
+def test_only_blocks_are_renewed(tmp_path):
+    """What stands around the marks stays; what stands in them is the program's, printed or drawn."""
+    document = tmp_path / "page.md"
+    draw = f"{sys.executable} -c \"print(3); open('a.png', 'w').write('drawn')\""
+    output, picture = (f"<!-- {kind} of: {draw} -->\n![](a.png)\n<!-- end -->\n" for kind in ("output", "picture"))
+    document.write_text(f"before\n<!-- table of: mount -->\nold\n<!-- end -->\n{output}{picture}after\n")
+    renew.renew(document, renew.Commands(tmp_path))
+    text = document.read_text()
+    assert text.startswith("before\n<!-- table of: mount -->\n| current, A |") and "\nold\n" not in text
+    assert text.endswith(output.replace("![](a.png)", "```text\n3\n```") + picture + "after\n")
+    assert (tmp_path / "a.png").read_text() == "drawn"
+
+
+def test_commands_that_fail_are_named(tmp_path):
+    """A document is not renewed with half an output."""
+    with pytest.raises(ValueError, match="exit code 3"):
+        renew.Commands(tmp_path).run(f"{sys.executable} -c 'exit(3)'")
 
 
 @pytest.mark.parametrize("text", ["<!-- table of: mount -->\n", "<!-- end -->\n"])
 def test_single_marks_are_refused(text):
     """Half a pair of marks is no block."""
     with pytest.raises(ValueError, match="must be pairs"):
-        renew.renewed(text)
+        renew.blocks(text)
 
 
 def test_every_dependency_has_its_reason():

@@ -4,27 +4,35 @@ import os
 import re
 import subprocess
 import sys
+from functools import partial
 
 import pytest
+from matplotlib.image import imread
 
-from .conftest import free_domain
 from .documents import DOCUMENTS, ROOT, renew
 
 # By how much a number may differ, beside one unit of its last digit. Contacts of the tracks amplify rounding, which is
 # another one on another kind of processor; with the track phase changed by 1e-12 runs scatter that much.
-SCATTER = {"run": 0.1, "study": 0.1, "modes": 0.0}
+SCATTER = {"run": 0.1, "study": 0.1}
+ALIKE, ALIKE_IN_SCATTER = 2e-4, 0.1  # part of a picture's elements that may differ
 OF_THE_MOMENT = ("finished", "runs ", "pace:", "left in", "picture")  # lines of progress, pace and places
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?%?")
 
 pytestmark = pytest.mark.system
 
 
-def shown():
-    """Give all blocks of output in the documents as pytest's parameters."""
+def shown(kind):
+    """Give all blocks of a kind in the documents, with their documents, as pytest's parameters."""
     for path in renew.documents():
         for block in renew.blocks(path.read_text(encoding="utf-8")):
-            if block.kind == "output":
-                yield pytest.param(block, id=block.source.replace("./", ""))
+            if block.kind == kind:
+                yield pytest.param(block, path, id=block.source.removeprefix("./"))
+
+
+@pytest.fixture(scope="module")
+def commands(tmp_path_factory, domain):
+    """Each command runs once for all that the documents take from it."""
+    return renew.Commands(tmp_path_factory.mktemp("commands"), ROS_DOMAIN_ID=str(domain))
 
 
 def python(document):
@@ -42,6 +50,11 @@ def compared(text):
     """Return what is to be compared: lines without those of the moment and without the frames of tables."""
     lines = (re.sub(r"[\u2500-\u257f\s]+", " ", line).strip() for line in text.splitlines())
     return [line for line in lines if line and not line.startswith(("```", *OF_THE_MOMENT))]
+
+
+def scatter(block):
+    """Return by what part numbers of a block's command may differ."""
+    return SCATTER.get(block.source.split()[1], 0.0)
 
 
 def alike(shown, printed, scatter):
@@ -65,16 +78,25 @@ def _allowed(number, scatter):
 
 
 @pytest.mark.slow(reason="a whole run in real processes, and a study of 27 drives")
-@pytest.mark.parametrize("block", list(shown()))
-def test_output_is_what_the_command_prints(block, tmp_path):
+@pytest.mark.parametrize(("block", "document"), list(shown("output")))
+def test_output_is_what_the_command_prints(block, document, commands):
     """The words are the same, and the numbers but for scatter; `python docs/renew.py` renews them."""
-    scatter = SCATTER[block.source.split()[1]]
-    with free_domain() as domain:
-        now = compared(renew.printed(block.source, tmp_path, domain))
-    before = compared(block.content)
+    before, now = compared(block.content), compared(commands.run(block.source)[0])
     assert len(before) > 3
     for old, new in zip(before, now, strict=True):
-        assert alike(old, new, scatter), f"the document has\n{old}\nand the command prints\n{new}"
+        assert alike(old, new, scatter(block)), f"the document has\n{old}\nand the command prints\n{new}"
+
+
+@pytest.mark.slow(reason="the same commands")
+@pytest.mark.parametrize(("block", "document"), list(shown("picture")))
+def test_picture_is_what_the_command_draws(block, document, commands):
+    """Picture elements are the same but for scatter, likewise."""
+    old, new = (
+        imread(path(block, document)) for path in (renew.shown_picture, partial(renew.made_picture, commands=commands))
+    )
+    assert old.shape == new.shape
+    different = (abs(old - new).max(axis=-1) > 0.1).mean()
+    assert different <= (ALIKE_IN_SCATTER if scatter(block) else ALIKE)
 
 
 @pytest.mark.parametrize(

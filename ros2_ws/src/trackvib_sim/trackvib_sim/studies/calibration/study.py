@@ -33,12 +33,12 @@ def run_calibrate(plan_file, vehicle_file, generations, scheduler, out):
     generations : int or None
         How many the search has in all, with those done earlier; None for the plan's number.
     scheduler : str or None
-        As `farm.farm` takes it.
+        As `workers.workers` takes it.
     out : path-like
 
     Raises
     ------
-    PlanError, VehicleFileError, HistoryError, FarmError, OSError
+    PlanError, VehicleFileError, HistoryError, WorkersError, OSError
         Plan, vehicle file or the folder cannot be used, or nothing can run.
     """
     vehicle, text = read_vehicle(vehicle_file or default_vehicle_file())

@@ -32,12 +32,12 @@ def run_table1(classes, speeds, seeds, vehicle_file, scheduler, out):
     vehicle_file : path-like or None
         None for the vehicle that comes with the package.
     scheduler : str or None
-        As `farm.farm` takes it.
+        As `workers.workers` takes it.
     out : path-like
 
     Raises
     ------
-    FarmError, VehicleFileError, OSError
+    WorkersError, VehicleFileError, OSError
         Nothing can run, the vehicle file or the folder cannot be used.
     """
     path = Path(vehicle_file or default_vehicle_file())
