@@ -5,10 +5,13 @@ import re
 import sys
 from importlib.util import find_spec
 
+import numpy as np
 import pytest
 import yaml
 from mr_mount_controller.node_base import topics
+from trackvib_sim.data import paper_table_file
 from trackvib_sim.road.iso8608 import CLASSES
+from trackvib_sim.studies.paper.paper_table import read_table
 
 from .documents import DOCUMENTS, ROOT, code_tables, renew
 
@@ -91,6 +94,37 @@ def test_single_marks_are_refused(text):
     """Half a pair of marks is no block."""
     with pytest.raises(ValueError, match="must be pairs"):
         renew.blocks(text)
+
+
+@pytest.mark.literature
+def test_what_the_model_does_not_give_follows_from_the_table():
+    """Sentences of docs/vehicle.md about ours and the paper's levels, from the rows that docs/studies.md shows."""
+    (block,) = (block for block in renew.blocks((ROOT / "docs" / "studies.md").read_text()) if block.kind == "output")
+    cells = re.findall(r"^│ ([A-H]) +│ +(\d+) │ ([\d. ]+) │ ([\d. ]+) │", block.content, re.MULTILINE)
+    ours = {
+        (road, float(speed)): [*map(float, one.split()), *map(float, two.split())] for road, speed, one, two in cells
+    }
+    paper = {(row.road_class, row.speed): row.rms for row in read_table(paper_table_file())}
+    ratio = np.array([np.divide(ours[case], paper[case]) for case in ours])
+    assert ratio.shape == (9, 6)
+    change = dict(zip(ours, 100.0 * (ratio - 1.0), strict=True))
+    means, text = np.exp(np.log(ratio).mean(axis=0)), " ".join((ROOT / "docs" / "vehicle.md").read_text().split())
+    low20, high5 = (
+        sorted(abs(change[road, speed][column]) for road in "ACE") for speed, column in ((20.0, 1), (5.0, 4))
+    )
+    e10, e20 = sorted(-change["E", 10.0][[2, 5]]), 100.0 * (1.0 - np.divide(ours["E", 20.0][3:], ours["E", 20.0][:3]))
+    for words in (
+        f"**error factor {np.exp(np.sqrt((np.log(ratio) ** 2).mean())):.2f}** over the nine rows, "
+        f"column means {means.min():.2f} to {means.max():.2f} of the paper's",
+        f"are {low20[0]:.0f} to {low20[2]:.0f} % low at the chassis, "
+        f"those of the powertrain at 5 m/s {high5[0]:.0f} to {high5[2]:.0f} % high",
+        f"is {e10[0]:.0f} to {e10[1]:.0f} % low. The paper has "
+        f"{100.0 * (paper['E', 10.0][2] / paper['C', 10.0][2] - 1.0):.0f} % more there than on class C",
+        f"as shipped, {-e20[0]:.0f} % above",
+        f"at E 20 m/s: {e20[1]:.0f} % below, in the paper",
+        f"at E 20 m/s {e20[2]:.0f} % (paper",
+    ):
+        assert words in text, words
 
 
 def test_every_dependency_has_its_reason():
