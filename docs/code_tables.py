@@ -1,7 +1,7 @@
 """The tables of the documents that are made from the code: a function each, by its name in the documents' marks."""
 
 import importlib
-from importlib.metadata import entry_points
+from importlib.metadata import entry_points, requires
 
 import numpy as np
 from mr_mount_controller.laws import find_law, known_laws
@@ -29,6 +29,18 @@ def executables():
         if package in PACKAGES:
             found[f"`{package} {entry.name}`"] = importlib.import_module(entry.module).__doc__.splitlines()[0]
     return [("`ros2 run`", "is"), *sorted(found.items())]
+
+
+def extras():
+    """What `pip install` brings with each package, and with each of its extras."""
+    rows = [("`pip install`", "brings")]
+    for package in reversed(PACKAGES):
+        brought = {}
+        for requirement in requires(package):
+            name, _, extra = requirement.partition("; extra == ")
+            brought.setdefault(f"{package}[{extra.strip(chr(34))}]" if extra else package, []).append(f"`{name}`")
+        rows += [(f"`{what}`", ", ".join(names)) for what, names in brought.items()]
+    return rows
 
 
 def topics():
@@ -101,6 +113,7 @@ def _default(value):
 
 TABLES = {
     "executables": executables,
+    "extras": extras,
     "topics": topics,
     "parameters of simulator": node_parameters(SIMULATOR),
     "parameters of road_excitation": node_parameters(ROAD),

@@ -51,7 +51,8 @@ def imports(module, path):
 def test_the_document_names_every_room():
     """Folders and files at the top of each package are the rooms of its table."""
     for package, named in rooms().items():
-        there = {path.stem for path in (SOURCE / package / package).iterdir() if path.name[0] not in "._"}
+        found = (path for path in (SOURCE / package / package).iterdir() if path.is_dir() or path.suffix == ".py")
+        there = {path.stem for path in found if path.name[0] != "_"}
         outside = {name.partition(".")[2] for name in OUTSIDE if name.startswith(package)}
         assert there - outside == set(named) and len(named) == len(set(named))
 
