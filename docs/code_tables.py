@@ -1,9 +1,12 @@
 """The tables of the documents that are made from the code: a function each, by its name in the documents' marks."""
 
 import importlib
+import inspect
 from importlib.metadata import entry_points, requires
 
+import mr_mount_controller.laws
 import numpy as np
+import trackvib_sim.rui
 from mr_mount_controller.laws import find_law, known_laws
 from mr_mount_controller.mount import HIGHEST_CURRENT, LOWEST_CURRENT, current_for_damping, damping, stiffness
 from mr_mount_controller.node import PARAMETERS as CONTROLLER
@@ -40,6 +43,15 @@ def extras():
             name, _, extra = requirement.partition("; extra == ")
             brought.setdefault(f"{package}[{extra.strip(chr(34))}]" if extra else package, []).append(f"`{name}`")
         rows += [(f"`{what}`", ", ".join(names)) for what, names in brought.items()]
+    return rows
+
+
+def library():
+    """Each name of the library with the first line of its docstring."""
+    rows = [("name", "is")]
+    for door in (trackvib_sim, trackvib_sim.rui, mr_mount_controller.laws):
+        for name in sorted(set(door.__all__), key=lambda name: (name[0].islower(), name)):
+            rows.append((f"`{door.__name__}.{name}`", inspect.getdoc(getattr(door, name)).splitlines()[0]))
     return rows
 
 
@@ -114,6 +126,7 @@ def _default(value):
 TABLES = {
     "executables": executables,
     "extras": extras,
+    "names of the library": library,
     "topics": topics,
     "parameters of simulator": node_parameters(SIMULATOR),
     "parameters of road_excitation": node_parameters(ROAD),
