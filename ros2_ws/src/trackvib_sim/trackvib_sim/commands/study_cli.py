@@ -8,7 +8,7 @@ import click
 from ..road.iso8608 import CLASSES
 from .option_types import INTERRUPTED, FiniteRange, Several
 
-SCENARIOS = ("e10", "c20", "run_up", "bump")  # those of studies.controllers.scenario, which takes long to import
+SCENARIOS = ("e10", "c20", "run_up", "bump")  # those of studies.controllers, which takes long to import
 
 
 @click.group()

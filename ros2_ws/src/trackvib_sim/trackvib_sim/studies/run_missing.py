@@ -21,7 +21,7 @@ def run_missing(vehicle, cases, store, scheduler, progress, description, run=dri
 
     Raises
     ------
-    FarmError, OSError
+    WorkersError, OSError
         As the workers and the store do.
     """
     found = {case: result for case in cases if (result := store.load(case)) is not None}

@@ -38,7 +38,7 @@ def run_calibrate(plan_file, vehicle_file, generations, scheduler, out):
 
     Raises
     ------
-    PlanError, VehicleFileError, HistoryError, FarmError, OSError
+    PlanError, VehicleFileError, HistoryError, WorkersError, OSError
         Plan, vehicle file or the folder cannot be used, or nothing can run.
     """
     vehicle, text = read_vehicle(vehicle_file or default_vehicle_file())

@@ -39,7 +39,7 @@ def run_controllers(laws, scenarios, seeds, vehicle_file, scheduler, out):
 
     Raises
     ------
-    FarmError, ParameterError, VehicleFileError, OSError
+    WorkersError, ParameterError, VehicleFileError, OSError
         Nothing can run, there is no such law, the vehicle file or the folder cannot be used.
     """
     laws = [name for name in laws or known_laws() if name != PASSIVE]

@@ -31,7 +31,7 @@ def run_figures(out, scheduler):
 
     Raises
     ------
-    FarmError, OSError
+    WorkersError, OSError
         As workers and folder do.
     ValueError
         The case that is drawn has left the valid range.

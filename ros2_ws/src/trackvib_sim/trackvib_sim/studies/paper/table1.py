@@ -37,7 +37,7 @@ def run_table1(classes, speeds, seeds, vehicle_file, scheduler, out):
 
     Raises
     ------
-    FarmError, VehicleFileError, OSError
+    WorkersError, VehicleFileError, OSError
         Nothing can run, the vehicle file or the folder cannot be used.
     """
     path = Path(vehicle_file or default_vehicle_file())
