@@ -10,10 +10,12 @@ from trackvib_msgs.msg import CoilCurrent
 
 from .laws import find_law
 from .laws.base import LawError, Sample, answer
+from .node_base.cdr import NANO
 from .node_base.loop_node import LoopNode, NodeError, run_node
-from .node_base.packed_message import NANO, MessageReader
+from .node_base.packed_message import MessageReader
 from .node_base.parameters import Parameter, ParameterError
 from .node_base.qos import LOOP_QOS, LOOP_WRITER_QOS
+from .node_base.topics import CHASSIS_IMU, COIL_CURRENT, POWERTRAIN_IMU
 
 PARAMETERS = (
     Parameter("law", "passive", "Control law: a known name, or package.module:Class."),
@@ -32,6 +34,11 @@ class Reading(NamedTuple):
     angular_velocity: tuple  # rad/s
 
 
+def _reading(imu, data):
+    stamp, numbers = imu.read(data)
+    return Reading(stamp, tuple(numbers[3:]), tuple(numbers[:3]))
+
+
 class ControllerNode(LoopNode):
     """Runs one law on the Imu messages of chassis and powertrain that carry the same stamp."""
 
@@ -44,16 +51,18 @@ class ControllerNode(LoopNode):
             raise ParameterError(f"controller: parameter 'sample_rate' is {rate}, accepted are divisors of {NANO} Hz")
         self._period = NANO // rate
         self._law = law(self._period / NANO, **values)
-        self._imu = MessageReader(Imu, {"header": "iI", "angular_velocity": "3d", "linear_acceleration": "3d"})
+        self._chassis_imu, self._powertrain_imu = (
+            MessageReader(Imu, "header.stamp", {"angular_velocity": 3, "linear_acceleration": 3}) for _ in range(2)
+        )
         self._chassis = self._powertrain = None  # latest readings
         self._last = None  # stamp answered last, ns
         self._sample = None  # the sample answered last
         self._steps = self._gaps = 0  # between samples, and those among them that were not one period
         self._answer = CoilCurrent()
         self._stamp = self._answer.header.stamp = self._answer.sample_stamp
-        self._currents = self.create_publisher(CoilCurrent, "coil_current", LOOP_WRITER_QOS)
-        self.create_subscription(Imu, "chassis/imu", self._on_chassis, LOOP_QOS, raw=True)
-        self.create_subscription(Imu, "powertrain/imu", self._on_powertrain, LOOP_QOS, raw=True)
+        self._currents = self.create_publisher(CoilCurrent, COIL_CURRENT, LOOP_WRITER_QOS)
+        self.create_subscription(Imu, CHASSIS_IMU, self._on_chassis, LOOP_QOS, raw=True)
+        self.create_subscription(Imu, POWERTRAIN_IMU, self._on_powertrain, LOOP_QOS, raw=True)
 
     def run(self):
         """Say what runs, wait for a simulator or vehicle, answer until told to stop."""
@@ -67,16 +76,12 @@ class ControllerNode(LoopNode):
             self.get_logger().warning(f"{self._gaps} gaps between the stamps of the samples")
 
     def _on_chassis(self, data):
-        self._chassis = self._reading(data)
+        self._chassis = _reading(self._chassis_imu, data)
         self._pair()
 
     def _on_powertrain(self, data):
-        self._powertrain = self._reading(data)
+        self._powertrain = _reading(self._powertrain_imu, data)
         self._pair()
-
-    def _reading(self, data):
-        seconds, nanoseconds, *numbers = self._imu.read(data)
-        return Reading(seconds * NANO + nanoseconds, tuple(numbers[3:]), tuple(numbers[:3]))
 
     def _pair(self):
         chassis, powertrain = self._chassis, self._powertrain

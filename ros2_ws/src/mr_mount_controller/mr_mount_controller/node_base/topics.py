@@ -1,4 +1,4 @@
-"""Names of topics and frames, in one place. Relative names can be remapped and put into a namespace."""
+"""Names of topics, their types and frames, in one place. Relative names can be remapped and put into a namespace."""
 
 CHASSIS_IMU = "chassis/imu"
 POWERTRAIN_IMU = "powertrain/imu"
@@ -10,6 +10,15 @@ VEHICLE_DESCRIPTION = "vehicle_description"
 RECORDED = "recorder/recorded"  # time up to which the recorder has written
 CLOCK = "/clock"
 DIAGNOSTICS = "/diagnostics"
+
+IMU_TYPE = "sensor_msgs/msg/Imu"
+COIL_CURRENT_TYPE = "trackvib_msgs/msg/CoilCurrent"
+MOUNT_STATE_TYPE = "trackvib_msgs/msg/MountState"
+ODOMETRY_TYPE = "nav_msgs/msg/Odometry"
+ROAD_PROFILE_TYPE = "trackvib_msgs/msg/RoadProfile"
+VEHICLE_DESCRIPTION_TYPE = "std_msgs/msg/String"
+CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
+DIAGNOSTICS_TYPE = "diagnostic_msgs/msg/DiagnosticArray"
 
 CHASSIS_FRAME = "chassis_imu_link"
 POWERTRAIN_FRAME = "powertrain_imu_link"

@@ -3,6 +3,7 @@
 from math import hypot, isfinite, isnan
 
 import numpy as np
+from mr_mount_controller.node_base import topics
 
 from ..bags.provenance import parameters_with
 from ..numerics.units import NANO
@@ -17,13 +18,13 @@ from .settling import SHORTEST_SETTLING, settling_time
 from .summary import AXES, SENSORS, SHORTEST_MEASURING, TooShort, loop_health, mount_energy, start_of
 from .vibration import band
 
-TOPICS = {
-    "chassis": "chassis/imu",
-    "powertrain": "powertrain/imu",
-    "mounts": "mount_state",
-    "answers": "coil_current",
-    "odometry": "odometry",
-}
+TOPICS = dict(  # by part of a recording
+    chassis=topics.CHASSIS_IMU,
+    powertrain=topics.POWERTRAIN_IMU,
+    mounts=topics.MOUNT_STATE,
+    answers=topics.COIL_CURRENT,
+    odometry=topics.ODOMETRY,
+)
 _WITHOUT = {  # what cannot be had of a bag without these topics
     "mounts": "no numbers of the mounts",
     "answers": "no demanded currents, and nobody knows which samples were answered",

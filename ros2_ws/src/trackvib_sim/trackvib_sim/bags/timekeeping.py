@@ -1,17 +1,18 @@
 """What the stamps of recorded messages tell: their time in the bag, how far it is complete, that a run begins anew."""
 
+from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.cdr import leading_stamp
 
 # Their stamps are the simulation's own time, and go up by so many ns at least from message to message of one topic. If
 # they do not, the simulation has begun anew.
 _LEAST_STEP = {
-    "sensor_msgs/msg/Imu": 1,
-    "trackvib_msgs/msg/MountState": 1,
-    "rosgraph_msgs/msg/Clock": 0,
-    "nav_msgs/msg/Odometry": 0,
+    topics.IMU_TYPE: 1,
+    topics.MOUNT_STATE_TYPE: 1,
+    topics.CLOCK_TYPE: 0,
+    topics.ODOMETRY_TYPE: 0,
 }
 # One of each comes every period, whatever the partners do.
-_EVERY_PERIOD = ("sensor_msgs/msg/Imu", "trackvib_msgs/msg/MountState")
+_EVERY_PERIOD = (topics.IMU_TYPE, topics.MOUNT_STATE_TYPE)
 
 
 class Timekeeping:

@@ -7,7 +7,7 @@ from mr_mount_controller.laws import find_law
 from mr_mount_controller.node_base import topics
 from rich.table import Table
 
-from ..analysis.bag_analysis import analyse
+from ..analysis.bag_analysis import TOPICS, analyse
 from ..analysis.replay_pictures import drives_picture
 from ..analysis.summary import AXES, SENSORS, TooShort, prepare, start_of, summarise
 from ..bags.copying import copy_bag
@@ -121,7 +121,7 @@ def _between(recording, begin, last, other):
     begins at the start, lacks none, and may end early.
     """
     cut = {}
-    for part in ("chassis", "powertrain", "mounts", "answers", "odometry"):
+    for part in TOPICS:
         columns = getattr(recording, part)
         if columns is None:
             continue

@@ -14,7 +14,6 @@ from rclpy.experimental import EventsExecutor
 from sensor_msgs.msg import Imu
 from trackvib_msgs.msg import CoilCurrent
 
-from ..numerics.units import NANO
 from ..simulation.lockstep import Lockstep
 from .partners import Gathering
 
@@ -42,7 +41,7 @@ class ControllerTrial:
         )
         self._executor = EventsExecutor()
         self._executor.add_node(self._node)
-        self._reader = MessageReader(CoilCurrent, {"sample_stamp": "iI", "current": "2d"})
+        self._reader = MessageReader(CoilCurrent, "sample_stamp", {"current": 2})
         self._lockstep = Lockstep(0.0, (-np.inf, np.inf))
         self._latest = None
         self._heard, self._given_up = -1, None  # latest sample answered, now and when silence fell, ns
@@ -92,8 +91,7 @@ class ControllerTrial:
         return self._answers.get_publisher_count(), listeners
 
     def _on_answer(self, data):
-        seconds, nanoseconds, *current = self._reader.read(data)
-        stamp = seconds * NANO + nanoseconds
+        stamp, current = self._reader.read(data)
         outcome = self._lockstep.offer(stamp, current)
         if outcome == "accepted":
             self._latest = Answer(tuple(current), bytes(data))

@@ -38,7 +38,7 @@ class SimulatorNode(LoopNode):
         self._warned = False  # of several controllers
 
         self._output = SimulatorOutput(self, self._simulation, vehicle_text)
-        self._answer = MessageReader(CoilCurrent, {"sample_stamp": "iI", "current": "2d"})
+        self._answer = MessageReader(CoilCurrent, "sample_stamp", {"current": 2})
         self._answers = self.create_subscription(CoilCurrent, topics.COIL_CURRENT, self._on_answer, LOOP_QOS, raw=True)
         self.create_subscription(RoadProfile, topics.ROAD_PROFILE, self._on_road, ROAD_QOS)
         self._control = RunControl(self, self._time)
@@ -204,7 +204,7 @@ class SimulatorNode(LoopNode):
         silent = self._time() - self._lockstep.answered_stamp > timeout * NANO
         counts["silent_periods"] += silent
         if silent and not self._silent:
-            self._on_silence(f"no answer since t = {self._exchange.answered_stamp / NANO:.3f} s")
+            self._on_silence(f"no answer since t = {self._lockstep.answered_stamp / NANO:.3f} s")
         self._silent = silent
 
     def _on_silence(self, what):
@@ -222,8 +222,7 @@ class SimulatorNode(LoopNode):
     # --- messages ---
 
     def _on_answer(self, data):
-        seconds, nanoseconds, *currents = self._answer.read(data)
-        stamp = seconds * NANO + nanoseconds
+        stamp, currents = self._answer.read(data)
         # who is late is on the way back; who repeats itself or makes no sense is not
         if self._lockstep.offer(stamp, currents) in ("accepted", "late"):
             self._heard = max(self._heard, stamp)
