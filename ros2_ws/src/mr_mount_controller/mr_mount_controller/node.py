@@ -11,6 +11,7 @@ from trackvib_msgs.msg import CoilCurrent
 from .laws import find_law
 from .laws.base import LawError, Sample, answer
 from .node_base.cdr import NANO
+from .node_base.listener import Refused
 from .node_base.loop_node import LoopNode, NodeError, run_node
 from .node_base.packed_message import MessageReader
 from .node_base.parameters import Parameter, ParameterError
@@ -23,6 +24,7 @@ PARAMETERS = (
     Parameter("wait_for_recorder", False, "Answer nothing before a recorder listens to the currents, too."),
 )
 _PATIENCE = 10.0  # s of wall time for those who shall hear the answers
+_GREATEST = 1e6  # m/s^2 or rad/s; no sensor measures more
 _CLASH = 5  # wrong steps from the very first sample on are not gaps but another rate
 
 
@@ -34,8 +36,11 @@ class Reading(NamedTuple):
     angular_velocity: tuple  # rad/s
 
 
-def _reading(imu, data):
-    stamp, numbers = imu.read(data)
+def _reading(imu):
+    """Return a `Reading` of what a `MessageReader` returns; `Refused` if no sensor measures that."""
+    stamp, numbers = imu
+    if not all(-_GREATEST <= number <= _GREATEST for number in numbers):  # NaN is not either
+        raise Refused(f"a measured number of {numbers} is not finite or beyond {_GREATEST:g}")
     return Reading(stamp, tuple(numbers[3:]), tuple(numbers[:3]))
 
 
@@ -51,9 +56,6 @@ class ControllerNode(LoopNode):
             raise ParameterError(f"controller: parameter 'sample_rate' is {rate}, accepted are divisors of {NANO} Hz")
         self._period = NANO // rate
         self._law = law(self._period / NANO, **values)
-        self._chassis_imu, self._powertrain_imu = (
-            MessageReader(Imu, "header.stamp", {"angular_velocity": 3, "linear_acceleration": 3}) for _ in range(2)
-        )
         self._chassis = self._powertrain = None  # latest readings
         self._last = None  # stamp answered last, ns
         self._sample = None  # the sample answered last
@@ -61,8 +63,9 @@ class ControllerNode(LoopNode):
         self._answer = CoilCurrent()
         self._stamp = self._answer.header.stamp = self._answer.sample_stamp
         self._currents = self.create_publisher(CoilCurrent, COIL_CURRENT, LOOP_WRITER_QOS)
-        self.create_subscription(Imu, CHASSIS_IMU, self._on_chassis, LOOP_QOS, raw=True)
-        self.create_subscription(Imu, POWERTRAIN_IMU, self._on_powertrain, LOOP_QOS, raw=True)
+        for topic, on_imu in ((CHASSIS_IMU, self._on_chassis), (POWERTRAIN_IMU, self._on_powertrain)):
+            imu = MessageReader(Imu, "header.stamp", {"angular_velocity": 3, "linear_acceleration": 3})
+            self.listen(Imu, topic, on_imu, LOOP_QOS, imu.read)
 
     def run(self):
         """Say what runs, wait for a simulator or vehicle, answer until told to stop."""
@@ -75,12 +78,12 @@ class ControllerNode(LoopNode):
         if self._gaps:
             self.get_logger().warning(f"{self._gaps} gaps between the stamps of the samples")
 
-    def _on_chassis(self, data):
-        self._chassis = _reading(self._chassis_imu, data)
+    def _on_chassis(self, imu):
+        self._chassis = _reading(imu)
         self._pair()
 
-    def _on_powertrain(self, data):
-        self._powertrain = _reading(self._powertrain_imu, data)
+    def _on_powertrain(self, imu):
+        self._powertrain = _reading(imu)
         self._pair()
 
     def _pair(self):

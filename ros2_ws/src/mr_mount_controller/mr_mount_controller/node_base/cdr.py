@@ -21,6 +21,7 @@ NUMBERS = {  # by their names in .msg and .idl files
 }  # fmt: skip
 _ENCAPSULATION = 4  # bytes before the message; places in it are aligned from their end
 _ORDERS = {b"\x00\x00": ">", b"\x00\x01": "<"}  # by its first two bytes: plain CDR, big and little end first
+_MOST_LENGTHS = 1000  # that are remembered of a message
 _STAMPS = {order: Struct(f"{order}iI") for order in _ORDERS.values()}
 
 
@@ -124,6 +125,31 @@ def check(kind, message):
     _Walk(message).visit(kind, "")
 
 
+class Checker:
+    """Checks messages of one kind as `check` does, quickly where they are like the one before."""
+
+    def __init__(self, kind):
+        self._kind = kind
+        self._size = -1  # of the message before, bytes
+
+    def check(self, message):
+        """Return the message if it is whole; raises `LayoutError` if not."""
+        if len(message) != self._size or self._lengths.unpack_from(message) != self._values:
+            self._fit(message)
+        return message
+
+    def _fit(self, message):
+        """Look at a message that is unlike the one before."""
+        self._size, walk = -1, _Walk(message)
+        walk.visit(self._kind, "")
+        if len(walk.lengths) > _MOST_LENGTHS:
+            return
+        ends = [2, *(place + 4 for place in walk.lengths)]
+        gaps = (f"{place - end}x4s" for place, end in zip(walk.lengths, ends, strict=False))
+        self._lengths = Struct(f"{walk.order}2s{''.join(gaps)}")
+        self._values, self._size = self._lengths.unpack_from(message), len(message)
+
+
 def _least(kind):
     if kind is TEXT:
         return 4
@@ -139,8 +165,8 @@ class _Walk:
     """Goes through a message field by field. No length is used before the bytes that are left bear it out."""
 
     def __init__(self, message):
-        self._message, self._order = message, byte_order(message)
-        self._length = Struct(f"{self._order}I")
+        self._message, self.order = message, byte_order(message)
+        self._length = Struct(f"{self.order}I")
         self._end = _ENCAPSULATION
         self._numbers = []  # name, place, letter and count of numbers of one kind, one after the other
         self.lengths = []  # their places
@@ -176,7 +202,7 @@ class _Walk:
             if (place, other) != (end, letter):
                 raise LayoutError(f"the numbers of field {name} are not of one kind, one after the other")
             end += count * calcsize(f"={letter}")
-        return first, (f"{self._order}{letter}", shape)
+        return first, (f"{self.order}{letter}", shape)
 
     def _take_numbers(self, name, letter, count):
         if count:  # nothing is aligned for nothing

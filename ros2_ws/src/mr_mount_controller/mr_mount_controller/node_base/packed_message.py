@@ -10,7 +10,7 @@ from struct import Struct
 import numpy as np
 from rclpy.serialization import serialize_message
 
-from .cdr import NANO, byte_order, find_layout
+from .cdr import NANO, Checker, LayoutError, byte_order, find_layout
 from .definitions import installed_definition
 
 
@@ -43,7 +43,7 @@ class PackedMessage:
         return bytes(self._bytes)
 
 
-class MessageReader:
+class MessageReader(Checker):
     """Reads a time and some fields of serialised messages of one type.
 
     It is quick for messages that are called alike, so have one for each topic.
@@ -59,9 +59,8 @@ class MessageReader:
     """
 
     def __init__(self, message_type, stamp, fields):
-        self._kind = installed_definition(message_type)
+        super().__init__(installed_definition(message_type))
         self._wanted = _stamp(stamp) | {name: (count,) for name, count in fields.items()}
-        self._size = -1  # of the latest message, bytes
 
     def read(self, data):
         """Return the time [ns], and the numbers of all fields, one after the other, as a list.
@@ -69,18 +68,19 @@ class MessageReader:
         Raises
         ------
         LayoutError
-            The bytes are no message of that type.
+            The bytes are no message of that type, or the time is none.
         """
         # whoever sends may call the frame as he likes, which shifts everything behind the name
-        if len(data) != self._size or self._lengths.unpack_from(data) != self._values:
-            self._fit(data)
-        seconds, nanoseconds, *numbers = self._numbers.unpack_from(data)
+        self.check(data)
+        seconds, nanoseconds, *numbers = self._numbers_of(data)
+        if seconds < 0 or nanoseconds >= NANO:
+            raise LayoutError(f"time is {seconds} s and {nanoseconds} ns, accepted is 0 s on and less than {NANO} ns")
         return seconds * NANO + nanoseconds, numbers
 
-    def _fit(self, data):
-        layout, order = find_layout(self._kind, data, self._wanted), byte_order(data)
-        self._numbers, self._lengths = _packing(order, layout.numbers), _packing(order, layout.lengths)
-        self._size, self._values = len(data), self._lengths.unpack_from(data)
+    def _fit(self, message):
+        numbers = find_layout(self._kind, message, self._wanted).numbers
+        super()._fit(message)
+        self._numbers_of = _packing(byte_order(message), numbers).unpack_from
 
 
 def _stamp(name):
@@ -88,12 +88,10 @@ def _stamp(name):
 
 
 def _packing(order, record):
-    """Return the `Struct` that reads what a structured dtype reads."""
+    """Return the `Struct` that reads what a structured dtype of numbers reads."""
     packing, end = order, 0
     for name in record.names:
         field, place = record.fields[name]
-        letter, count = field.base.char, field.itemsize // field.base.itemsize
-        numbers = f"{field.itemsize}s" if letter == "V" else f"{count}{letter}"
-        packing += f"{place - end}x{numbers}"
+        packing += f"{place - end}x{field.itemsize // field.base.itemsize}{field.base.char}"
         end = place + field.itemsize
     return Struct(packing)
