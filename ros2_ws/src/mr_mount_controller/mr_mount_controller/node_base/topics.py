@@ -1,4 +1,4 @@
-"""Topics and frames, in one place. Relative names can be remapped and put into a namespace."""
+"""Topics, their types and frames, in one place. Relative names can be remapped and put into a namespace."""
 
 from typing import NamedTuple
 
@@ -12,6 +12,16 @@ VEHICLE_DESCRIPTION = "vehicle_description"
 RECORDED = "recorder/recorded"
 CLOCK = "/clock"
 DIAGNOSTICS = "/diagnostics"
+
+IMU_TYPE = "sensor_msgs/msg/Imu"
+COIL_CURRENT_TYPE = "trackvib_msgs/msg/CoilCurrent"
+MOUNT_STATE_TYPE = "trackvib_msgs/msg/MountState"
+ODOMETRY_TYPE = "nav_msgs/msg/Odometry"
+ROAD_PROFILE_TYPE = "trackvib_msgs/msg/RoadProfile"
+VEHICLE_DESCRIPTION_TYPE = "std_msgs/msg/String"
+CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
+DIAGNOSTICS_TYPE = "diagnostic_msgs/msg/DiagnosticArray"
+RECORDED_TYPE = "builtin_interfaces/msg/Time"
 
 CHASSIS_FRAME = "chassis_imu_link"
 POWERTRAIN_FRAME = "powertrain_imu_link"
@@ -32,52 +42,52 @@ class Topic(NamedTuple):
 TOPICS = (
     Topic(
         CHASSIS_IMU,
-        "sensor_msgs/msg/Imu",
+        IMU_TYPE,
         "simulator",
         "1 kHz",
         "Lower (hull) end of the mounts: specific force and angular velocity, mean over the period, body axes.",
     ),
     Topic(
         POWERTRAIN_IMU,
-        "sensor_msgs/msg/Imu",
+        IMU_TYPE,
         "simulator",
         "1 kHz",
         "Upper (powertrain) end of the mounts, likewise.",
     ),
     Topic(
         COIL_CURRENT,
-        "trackvib_msgs/msg/CoilCurrent",
+        COIL_CURRENT_TYPE,
         "controller",
         "1 kHz",
         "The answer: demanded current of both coils, and the stamp of the sample that it answers.",
     ),
     Topic(
         MOUNT_STATE,
-        "trackvib_msgs/msg/MountState",
+        MOUNT_STATE_TYPE,
         "simulator",
         "1 kHz",
         "Current, stiffness, damping, deflection, velocity, force and dissipated power of both mounts.",
     ),
-    Topic(ODOMETRY, "nav_msgs/msg/Odometry", "simulator", "100 Hz", "Pose and velocity of the hull."),
+    Topic(ODOMETRY, ODOMETRY_TYPE, "simulator", "100 Hz", "Pose and velocity of the hull."),
     Topic(
         ROAD_PROFILE,
-        "trackvib_msgs/msg/RoadProfile",
+        ROAD_PROFILE_TYPE,
         "road_excitation",
         "on demand",
         "Patches of road, left and right.",
     ),
-    Topic(VEHICLE_DESCRIPTION, "std_msgs/msg/String", "simulator", "once", "The vehicle file in use."),
+    Topic(VEHICLE_DESCRIPTION, VEHICLE_DESCRIPTION_TYPE, "simulator", "once", "The vehicle file in use."),
     Topic(
         RECORDED,
-        "builtin_interfaces/msg/Time",
+        RECORDED_TYPE,
         "recorder",
         "as it writes",
         "Time up to which the bag holds everything.",
     ),
-    Topic(CLOCK, "rosgraph_msgs/msg/Clock", "simulator", "100 Hz", "Simulated time."),
+    Topic(CLOCK, CLOCK_TYPE, "simulator", "100 Hz", "Simulated time."),
     Topic(
         DIAGNOSTICS,
-        "diagnostic_msgs/msg/DiagnosticArray",
+        DIAGNOSTICS_TYPE,
         "simulator",
         "10 Hz",
         "State and epoch, currents in force, pace, late and rejected answers, saturation, where the time of a period "

@@ -4,6 +4,7 @@ from math import isfinite
 from typing import NamedTuple
 
 import numpy as np
+from mr_mount_controller.node_base import topics
 
 from ..bags.provenance import parameters_with
 from ..numerics.units import NANO
@@ -12,13 +13,13 @@ from .settling import SHORTEST_SETTLING, settling_time
 from .stamps import start_of, timing
 
 SHORTEST_MEASURING = 1.0  # s
-TOPICS = {  # part of a recording -> end of its topic's name
-    "chassis": "chassis/imu",
-    "powertrain": "powertrain/imu",
-    "mounts": "mount_state",
-    "answers": "coil_current",
-    "odometry": "odometry",
-}
+TOPICS = dict(  # by part of a recording
+    chassis=topics.CHASSIS_IMU,
+    powertrain=topics.POWERTRAIN_IMU,
+    mounts=topics.MOUNT_STATE,
+    answers=topics.COIL_CURRENT,
+    odometry=topics.ODOMETRY,
+)
 
 
 class TooShort(ValueError):

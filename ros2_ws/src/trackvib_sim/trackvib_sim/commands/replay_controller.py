@@ -5,6 +5,7 @@ from contextlib import contextmanager
 
 import numpy as np
 from mr_mount_controller.node_base.qos import LOOP_WRITER_QOS
+from mr_mount_controller.node_base.topics import CHASSIS_IMU, COIL_CURRENT, COIL_CURRENT_TYPE, POWERTRAIN_IMU
 
 from ..analysis.replay_pictures import currents_picture
 from ..analysis.stamps import period_of
@@ -75,11 +76,11 @@ def _replay(recording, law, writer, folder, console):
     replayed, topics, stamps = {}, recording.topics, recording.chassis.stamp
     with _controller(law, round(NANO / period_of(stamps)), folder) as check, ControllerTrial() as trial:
         if law is None:
-            console.print("waiting for a controller that listens to chassis/imu or powertrain/imu and answers on "
-                          "coil_current", soft_wrap=True)  # fmt: skip
+            console.print(f"waiting for a controller that listens to {CHASSIS_IMU} or {POWERTRAIN_IMU} and answers on "
+                          f"{COIL_CURRENT}", soft_wrap=True)  # fmt: skip
         trial.wait_for_controller(check)
-        writer.add_topic(REPLAYED, "trackvib_msgs/msg/CoilCurrent", [qos_record(LOOP_WRITER_QOS)], trial.type_hash())
-        samples = sample_messages(recording.path, topics["chassis/imu"], topics["powertrain/imu"])
+        writer.add_topic(REPLAYED, COIL_CURRENT_TYPE, [qos_record(LOOP_WRITER_QOS)], trial.type_hash())
+        samples = sample_messages(recording.path, topics[CHASSIS_IMU], topics[POWERTRAIN_IMU])
         for stamp, *imus in followed(samples, "asking the controller", console, len(stamps)):
             answer = trial.answer(stamp, *imus)
             if answer is None:

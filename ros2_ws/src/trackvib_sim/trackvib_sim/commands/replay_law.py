@@ -11,7 +11,7 @@ from ..analysis.analyse import analyse
 from ..analysis.numbers import AXES, SENSORS
 from ..analysis.picture_data import prepare
 from ..analysis.replay_pictures import drives_picture
-from ..analysis.segments import TooShort
+from ..analysis.segments import TOPICS, TooShort
 from ..analysis.stamps import start_of
 from ..analysis.summary import summarise
 from ..bags.copying import copy_bag
@@ -125,7 +125,7 @@ def _between(recording, begin, last, other):
     begins at the start, lacks none, and may end early.
     """
     cut = {}
-    for part in ("chassis", "powertrain", "mounts", "answers", "odometry"):
+    for part in TOPICS:
         columns = getattr(recording, part)
         if columns is None:
             continue

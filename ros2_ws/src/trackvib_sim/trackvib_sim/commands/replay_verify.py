@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from mr_mount_controller.node_base import topics
 
 from ..analysis.numbers import AXES, SIDES
 from ..bags.reading import COLUMNS, read_recording
@@ -56,9 +57,9 @@ def verify(bag, console):
         raise NotVerifiable("its run followed the wall clock (pace is 'realtime'), so it depends on the machine")
     # the mounts first: a wrong current is seen there by its name
     mounts, chassis, powertrain = streams = (
-        _Stream(recording, "mount_state", recording.mounts),
-        _Stream(recording, "chassis/imu", recording.chassis),
-        _Stream(recording, "powertrain/imu", recording.powertrain),
+        _Stream(recording, topics.MOUNT_STATE, recording.mounts),
+        _Stream(recording, topics.CHASSIS_IMU, recording.chassis),
+        _Stream(recording, topics.POWERTRAIN_IMU, recording.powertrain),
     )
     rates, last = simulation.settings.rates, int(max(stream.stamp[-1] for stream in streams))
     answered = last if recording.answers is None else recording.answers.sample_stamp.max()

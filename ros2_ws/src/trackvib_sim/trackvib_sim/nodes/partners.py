@@ -40,7 +40,7 @@ class SecondClock:
         self.ahead = False
         self._time = time
         self._own = 0  # the latest time that the node has ever published, ns: its own clock goes back, too
-        node.create_subscription(Clock, topics.CLOCK, self._on_clock, CLOCK_QOS)
+        node.listen(Clock, topics.CLOCK, self._on_clock, CLOCK_QOS)
 
     def refuse(self):
         """Raise `NodeError` if there is one that is ahead."""
@@ -62,7 +62,7 @@ class RecorderLag:
         """Listen to the recorder; `time()` is the simulated time [ns]."""
         self._node, self._time = node, time
         self._recorded = None  # time up to which it has written, ns; unknown without a recorder
-        node.create_subscription(Time, topics.RECORDED, self._on_recorded, LATCHED_QOS)
+        node.listen(Time, topics.RECORDED, self._on_recorded, LATCHED_QOS)
 
     @property
     def there(self):
@@ -86,5 +86,5 @@ class RecorderLag:
 
     def _on_recorded(self, written):
         stamp = written.sec * NANO + written.nanosec
-        if stamp <= self._time():  # else it speaks of the time before a reset
+        if 0 <= stamp <= self._time():  # else it speaks of the time before a reset
             self._recorded = stamp

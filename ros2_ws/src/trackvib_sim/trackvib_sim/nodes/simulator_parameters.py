@@ -3,6 +3,7 @@
 from contextlib import suppress
 
 from mr_mount_controller.node_base.parameters import Parameter, ParameterError
+from mr_mount_controller.node_base.topics import VEHICLE_DESCRIPTION
 
 from ..bags.provenance import parameters_with
 from ..data import default_vehicle_file
@@ -95,7 +96,7 @@ def prepare_again(recording):
     if not recorded:
         raise ParameterError("the bag does not tell the parameters of its simulator")
     values = {parameter.name: _value(parameter, recorded) for parameter in PARAMETERS}
-    simulation = simulation_of(parse_vehicle(recording.vehicle, "vehicle_description"), values)
+    simulation = simulation_of(parse_vehicle(recording.vehicle, VEHICLE_DESCRIPTION), values)
     for patch in recording.road:
         with suppress(ValueError):  # which the simulator refused as well
             simulation.road.add(*patch)
