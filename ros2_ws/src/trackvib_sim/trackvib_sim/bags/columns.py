@@ -11,7 +11,7 @@ import numpy as np
 
 from ..numerics.units import NANO
 from .cdr_layout import find_layout
-from .mcap_chunks import at
+from .mcap_messages import at
 
 
 class Columns(NamedTuple):

@@ -6,7 +6,7 @@ from rosbags.rosbag2 import ReaderError
 
 from .errors import BagError
 from .files import bag_files
-from .recovery import DAMAGE
+from .mcap_records import DAMAGE
 
 
 def open_bag(path):

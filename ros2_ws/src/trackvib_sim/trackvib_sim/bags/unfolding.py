@@ -1,0 +1,75 @@
+"""Unfolds the chunks of MCAP files within bounds, for a few bytes may claim or hold any number of them."""
+
+from contextvars import ContextVar
+from io import BytesIO
+
+from lz4.frame import LZ4FrameDecompressor
+from zstandard import ZstdDecompressor
+
+MIB = 1 << 20
+LARGEST_CHUNKS = (1, 1 << 14)  # MiB, what may be chosen
+
+# MiB that a chunk may hold, and any other record; recorders make chunks of a few MiB at most. The command line's
+# `--largest-chunk` and the player's parameter set it.
+largest_chunk = ContextVar("largest_chunk", default=64)
+
+
+class TooLarge(Exception):
+    """A record that needs more memory than is accepted; the message names it, its size and what is accepted."""
+
+
+def largest_record():
+    """Return how many bytes a record may have, a chunk when it is unfolded."""
+    return largest_chunk.get() * MIB
+
+
+def too_large(what, size):
+    """Return the error for something of `size` bytes; `what` names it with its place."""
+    return TooLarge(
+        f"{what} has {size} bytes, accepted are {largest_record()} ({largest_chunk.get()} MiB; --largest-chunk sets it)"
+    )
+
+
+def unfold(compression, data, size, what):
+    """Return the contents of a chunk, fewer bytes than it declares if some of it is missing.
+
+    Parameters
+    ----------
+    compression : str
+        One of `COMPRESSIONS`.
+    data : bytes
+    size : int
+        How many bytes the chunk declares to hold, whatever it does hold.
+    what : str
+        Names the chunk with its place.
+
+    Raises
+    ------
+    TooLarge
+        It declares more than is accepted, and holds it.
+    ValueError, zstandard.ZstdError
+        It holds more than it declares, or cannot be unfolded.
+    """
+    bound = min(size, largest_record())
+    contents = COMPRESSIONS[compression](data, bound + 1)
+    if len(contents) > size:
+        raise ValueError(f"holds more than the {size} bytes that it declares")
+    if len(contents) > bound:
+        raise too_large(f"{what}, unfolded,", size)
+    return contents
+
+
+def _zstd(data, most):
+    # a window is never larger than what is accepted of a chunk
+    window = max(largest_record(), MIB)
+    return ZstdDecompressor(max_window_size=window).stream_reader(BytesIO(data)).read(most)
+
+
+def _lz4(data, most):
+    try:
+        return LZ4FrameDecompressor().decompress(data, max_length=most)
+    except RuntimeError as error:
+        raise ValueError(str(error)) from None
+
+
+COMPRESSIONS = {"": lambda data, most: data[:most], "zstd": _zstd, "lz4": _lz4}  # as MCAP names them
