@@ -13,6 +13,7 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
 from .parameters import ParameterError
+from .plain_text import readable
 from .shared_memory import remove_unfinished_segments
 
 # rclpy declares these itself on every node
@@ -126,7 +127,7 @@ def run_node(make_node, args=None, companions=()):
                 node.close()
             executor.shutdown()
     except (ParameterError, NodeError, RCLError) as error:
-        print(f"error: {error}", file=sys.stderr)
+        print(f"error: {readable(str(error))}", file=sys.stderr)
         return 2 if isinstance(error, ParameterError) else 1
     finally:
         for node in nodes:

@@ -7,9 +7,9 @@ from mcap.writer import MCAP0_MAGIC
 
 from .errors import BagError
 from .files import bag_files
+from .limits import TooLarge
 from .mcap_summary import summary_of
 from .metadata import channels
-from .unfolding import TooLarge
 
 
 class Contents(NamedTuple):

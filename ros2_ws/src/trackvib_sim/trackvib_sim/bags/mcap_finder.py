@@ -12,9 +12,10 @@ from zlib import crc32
 import numpy as np
 from mcap.opcode import Opcode
 
+from .limits import largest_record, too_large
 from .mcap_messages import FRAME, at, find_records
 from .mcap_records import DAMAGE, PRIVATE, is_message_index, parse
-from .unfolding import COMPRESSIONS, largest_record, too_large, unfold
+from .unfolding import COMPRESSIONS, unfold
 
 _FRAME = struct.Struct("<BQ")
 _CHUNK = struct.Struct("<QQQII")  # first and last time, size and checksum of the contents, length of a name

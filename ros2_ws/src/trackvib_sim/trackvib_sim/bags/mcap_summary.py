@@ -13,11 +13,11 @@ from mcap.records import Attachment, AttachmentIndex, Channel, ChunkIndex, Metad
 from mcap.summary import Summary
 from mcap.writer import MCAP0_MAGIC
 
+from .limits import largest_record, too_large
 from .mcap_finder import ChunkPlace
 from .mcap_messages import FRAME, find_records
 from .mcap_records import DAMAGE, parse
 from .mcap_walk import Walk
-from .unfolding import largest_record, too_large
 
 _FOOTER = struct.Struct("<BQQQI")  # with its frame
 _NOT_SUMMED = 4  # bytes at the footer's end that the summary's checksum leaves out: itself

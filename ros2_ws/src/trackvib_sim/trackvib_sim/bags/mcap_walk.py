@@ -9,10 +9,10 @@ from mcap.opcode import Opcode
 from mcap.stream_reader import MAGIC_SIZE
 from mcap.writer import MCAP0_MAGIC
 
+from .limits import largest_record, too_large
 from .mcap_finder import Record, RecordFinder
 from .mcap_messages import Messages, find_records, messages_of
 from .mcap_records import DAMAGE, parse
-from .unfolding import largest_record, too_large
 
 _FRAME = struct.Struct("<BQ")
 _KEPT = (Opcode.HEADER, Opcode.SCHEMA, Opcode.CHANNEL, Opcode.MESSAGE, Opcode.METADATA, Opcode.ATTACHMENT)

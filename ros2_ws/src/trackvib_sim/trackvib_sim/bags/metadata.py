@@ -5,6 +5,7 @@ from pathlib import Path
 
 import yaml
 
+from ..yaml_text import YamlTextError, load
 from .new_files import new_file
 
 
@@ -61,11 +62,16 @@ def _information(summaries):
     }
 
 
+def declared_qos(channel):
+    """Return what a channel declares of its QoS, as it stands; raises `yaml_text.YamlTextError`."""
+    return load(channel.metadata.get("offered_qos_profiles", ""), f"QoS of {channel.topic}")
+
+
 def _offered_qos(channel):
     """Return a channel's QoS records; none where there is no readable text of them."""
     try:
-        told = yaml.safe_load(channel.metadata.get("offered_qos_profiles", ""))
-    except (yaml.YAMLError, ValueError, LookupError, AttributeError, RecursionError):
+        told = declared_qos(channel)
+    except YamlTextError:
         return []  # of other tools it may be anything
     return told if isinstance(told, list) else []
 

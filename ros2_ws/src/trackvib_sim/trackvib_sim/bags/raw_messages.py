@@ -7,9 +7,9 @@ from mr_mount_controller.node_base.cdr import leading_stamp
 
 from .errors import BagError
 from .files import bag_files
+from .limits import TooLarge
 from .mcap_records import DAMAGE
 from .mcap_walk import Walk
-from .unfolding import TooLarge
 
 
 NO_SCHEMA = 0  # number with which MCAP marks a channel without a definition, of a JSON log for instance

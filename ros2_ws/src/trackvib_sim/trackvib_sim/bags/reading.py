@@ -16,11 +16,11 @@ from .cdr_layout import type_store
 from .columns import Columns, Topic
 from .errors import BagError
 from .files import bag_files
+from .limits import TooLarge
 from .mcap_records import DAMAGE
 from .mcap_walk import Walk
 from .raw_messages import NO_SCHEMA
 from .recording import Answers, Inertial, LoopCounts, Mounts, Odometry, Recording
-from .unfolding import TooLarge
 
 _SENSOR = Columns("sensor_msgs/msg/Imu", Inertial, {
     "stamp": "header.stamp",
@@ -52,7 +52,8 @@ _TYPES = {end: columns.type_name for end, columns in COLUMNS.items()} | _RARE
 _ANSWERS = ("accepted", "late", "duplicate", "not_finite")  # to samples that were out, among the diagnostics
 # a definition that is damaged or not the one we know gives the others where it is applied
 _READ_ERRORS = (
-    OSError, TooLarge, *DAMAGE, SerdeError, RuntimeError, LookupError, OverflowError, AssertionError, AttributeError, TypeError,
+    OSError, TooLarge, *DAMAGE, SerdeError, RuntimeError, LookupError, OverflowError, AssertionError, AttributeError,
+    TypeError,
 )  # fmt: skip
 
 

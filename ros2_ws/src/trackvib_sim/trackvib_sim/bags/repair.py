@@ -6,19 +6,19 @@ from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
-import yaml
 from mcap.exceptions import InvalidMagic
 from mcap.records import Attachment, Header, Metadata
 from mcap.writer import CompressionType, Writer
 
+from ..yaml_text import YamlTextError, load, read_text
 from .errors import BagError
 from .files import bag_files
+from .limits import TooLarge
 from .mcap_summary import examine, summary_of
 from .mcap_walk import Walk
 from .metadata import write_metadata
 from .new_files import new_file, set_aside
 from .raw_messages import NO_SCHEMA, RawMessage, walked_records
-from .unfolding import TooLarge
 from .writing import CHUNK, LIBRARY
 
 _TELL = 1000  # records between two calls of `told`
@@ -169,8 +169,8 @@ class _Copied:
 def _metadata_fits(metadata, summaries):
     """Return whether `metadata.yaml` is there and speaks of these files and their messages."""
     try:
-        told = yaml.safe_load(metadata.read_text(encoding="utf-8"))["rosbag2_bagfile_information"]
+        told = load(read_text(metadata), metadata.name)["rosbag2_bagfile_information"]
         messages = sum(summary.statistics.message_count for summary in summaries.values())
-        return told["relative_file_paths"] == list(summaries) and told["message_count"] == messages
-    except (FileNotFoundError, yaml.YAMLError, KeyError, TypeError, UnicodeDecodeError):
+        return bool(told["relative_file_paths"] == list(summaries) and told["message_count"] == messages)
+    except (YamlTextError, KeyError, TypeError, IndexError):
         return False

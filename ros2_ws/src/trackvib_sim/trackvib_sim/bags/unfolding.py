@@ -1,33 +1,11 @@
 """Unfolds the chunks of MCAP files within bounds, for a few bytes may claim or hold any number of them."""
 
-from contextvars import ContextVar
 from io import BytesIO
 
 from lz4.frame import LZ4FrameDecompressor
 from zstandard import ZstdDecompressor
 
-MIB = 1 << 20
-LARGEST_CHUNKS = (1, 1 << 14)  # MiB, what may be chosen
-
-# MiB that a chunk may hold, and any other record; recorders make chunks of a few MiB at most. The command line's
-# `--largest-chunk` and the player's parameter set it.
-largest_chunk = ContextVar("largest_chunk", default=64)
-
-
-class TooLarge(Exception):
-    """A record that needs more memory than is accepted; the message names it, its size and what is accepted."""
-
-
-def largest_record():
-    """Return how many bytes a record may have, a chunk when it is unfolded."""
-    return largest_chunk.get() * MIB
-
-
-def too_large(what, size):
-    """Return the error for something of `size` bytes; `what` names it with its place."""
-    return TooLarge(
-        f"{what} has {size} bytes, accepted are {largest_record()} ({largest_chunk.get()} MiB; --largest-chunk sets it)"
-    )
+from .limits import MIB, largest_record, too_large
 
 
 def unfold(compression, data, size, what):

@@ -19,13 +19,13 @@ from ..bags.files import called
 from ..bags.provenance import PARAMETERS_OF, parameters_with, write_parameters, write_versions
 from ..bags.reading import read_recording
 from ..bags.writing import BagWriter
+from ..console import followed
 from ..nodes.rerun_bag import RerunBag
 from ..nodes.simulator_parameters import prepare_again
 from ..numerics.units import NANO
 from ..simulation.closed_loop import periods_under_law
 from ..simulation.simulation import RunFailed
 from ..vehicle.mount_energy import mount_energy_account
-from .progress import followed
 from .result_folder import all_or_nothing
 
 

@@ -12,12 +12,11 @@ from math import sqrt
 from pathlib import Path
 from typing import NamedTuple
 
-import yaml
-
 from ..data import default_vehicle_file
 from ..vehicle.body_tree import GRAVITY
 from ..vehicle.tracks.layout import sink
 from ..vehicle.vehicle_file import parse_vehicle
+from ..yaml_text import load
 from .assembled_vehicle import assemble_vehicle
 from .sprocket_drawing import free_entry, half_gap
 
@@ -50,7 +49,7 @@ def parameters(text):
             Parameter(item, _words(each["value"]), each["unit"], each["source"], each.get("note", ""))
             for item, each in items.items()
         ]
-        for section, items in yaml.safe_load(text).items()
+        for section, items in load(text, "the vehicle file").items()
     }
 
 
