@@ -3,7 +3,7 @@
 from io import BytesIO
 
 from lz4.frame import LZ4FrameDecompressor
-from zstandard import ZstdDecompressor
+from zstandard import CONTENTSIZE_UNKNOWN, ZstdDecompressor, get_frame_parameters
 
 from .limits import MIB, largest_record, too_large
 
@@ -29,6 +29,8 @@ def unfold(compression, data, size, what):
         It holds more than it declares, or cannot be unfolded.
     """
     bound = min(size, largest_record())
+    if compression == "zstd" and size > bound and _zstd_claim(data) == size:
+        raise too_large(f"{what}, unfolded,", size)
     contents = COMPRESSIONS[compression](data, bound + 1)
     if len(contents) > size:
         raise ValueError(f"holds more than the {size} bytes that it declares")
@@ -41,6 +43,12 @@ def _zstd(data, most):
     # a window is never larger than what is accepted of a chunk
     window = max(largest_record(), MIB)
     return ZstdDecompressor(max_window_size=window).stream_reader(BytesIO(data)).read(most)
+
+
+def _zstd_claim(data):
+    """Return how many bytes a frame claims to hold, None if it does not say."""
+    claim = get_frame_parameters(data).content_size
+    return None if claim == CONTENTSIZE_UNKNOWN else claim
 
 
 def _lz4(data, most):

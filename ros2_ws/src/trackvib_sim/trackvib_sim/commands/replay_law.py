@@ -5,6 +5,7 @@ import json
 import numpy as np
 from mr_mount_controller.laws import find_law
 from mr_mount_controller.node_base import topics
+from mr_mount_controller.node_base.plain_text import readable, shortened
 from rich.table import Table
 
 from ..analysis.analyse import analyse
@@ -55,7 +56,7 @@ def _compare(recording, rerun, law, ended, folder):
     """Draw both drives over the same instants; returns what they are called, and their levels."""
     begin, last = start_of(recording), int(rerun.chassis.stamp[-1])
     recorded_law = parameters_with(recording.provenance, "law")[1].get("law", "law not told")
-    labels = (f"recorded ({recorded_law})", f"replayed ({law})")
+    labels = (f"recorded ({shortened(readable(recorded_law))})", f"replayed ({law})")
     both = _between(recording, begin, last, rerun), _between(rerun, begin, last, recording)
     drives = dict(zip(labels, both, strict=True))
     try:
