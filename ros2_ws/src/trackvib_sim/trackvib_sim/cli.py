@@ -8,8 +8,8 @@ from mr_mount_controller.laws import known_laws
 
 from .commands.analyze_cli import analyze
 from .commands.bag_cli import bag
-from .commands.option_types import INTERRUPTED, FiniteRange, known_law
 from .commands.endings import fail, say
+from .commands.option_types import INTERRUPTED, FiniteRange, known_law
 from .commands.replay_cli import replay
 from .commands.study_cli import study
 from .road.iso8608 import CLASSES

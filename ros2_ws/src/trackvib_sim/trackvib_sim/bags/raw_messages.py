@@ -11,7 +11,6 @@ from .limits import TooLarge
 from .mcap_records import DAMAGE
 from .mcap_walk import Walk
 
-
 NO_SCHEMA = 0  # number with which MCAP marks a channel without a definition, of a JSON log for instance
 
 

@@ -21,8 +21,8 @@ from ..analysis.settling import settling_time
 from ..analysis.summary import summarise
 from ..bags.errors import BagError
 from ..bags.reading import read_recording
-from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses, closed_loop_parameters
 from ..console import Description, Terminal
+from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses, closed_loop_parameters
 from ..nodes.road_excitation import PARAMETERS as ROAD_PARAMETERS
 from ..nodes.watch import Watch
 from ..vehicle.mount_energy import MountEnergy

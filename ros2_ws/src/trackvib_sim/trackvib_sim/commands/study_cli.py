@@ -6,8 +6,8 @@ from contextlib import contextmanager
 import click
 
 from ..road.iso8608 import CLASSES
-from .option_types import INTERRUPTED, FiniteRange, Several
 from .endings import fail, say
+from .option_types import INTERRUPTED, FiniteRange, Several
 
 SCENARIOS = ("e10", "c20", "run_up", "bump")  # those of studies.controlled, which takes long to import
 

@@ -1,5 +1,7 @@
 """Reads a vehicle file, and says in one sentence an item what is wrong with it."""
 
+from pathlib import Path
+
 from ..yaml_text import YamlTextError, read_text, validated
 from .parameters import Vehicle
 
