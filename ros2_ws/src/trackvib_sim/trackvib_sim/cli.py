@@ -8,6 +8,7 @@ from mr_mount_controller.laws import known_laws
 
 from .commands.analyze_cli import analyze
 from .commands.bag_cli import bag
+from .commands.endings import fail, say
 from .commands.option_types import INTERRUPTED, FiniteRange, known_law
 from .commands.replay_cli import replay
 from .commands.study_cli import study
@@ -21,7 +22,7 @@ class _Verbs(click.Group):
         try:
             return super().invoke(context)
         except KeyboardInterrupt:
-            click.echo("interrupted", err=True)
+            say("interrupted")
             sys.exit(INTERRUPTED)
 
 
@@ -74,8 +75,7 @@ def run(road_class, speed, duration, law, seed, one_process, out):
     try:
         run_loop(Choices(road_class, speed, duration, law, seed, one_process), out)
     except CommandError as error:
-        click.echo(f"error: {error}", err=True)
-        sys.exit(1)
+        fail(error)
 
 
 @main.command()
@@ -103,8 +103,7 @@ def modes(current, highest, out):
     try:
         run_modes(current, highest, out)
     except (ValueError, OSError) as error:
-        click.echo(f"error: {error}", err=True)
-        sys.exit(1)
+        fail(error)
 
 
 @main.command()
@@ -124,8 +123,7 @@ def vehicle(vehicle, out):
     try:
         run_vehicle(vehicle, out)
     except (ValueError, OSError) as error:
-        click.echo(f"error: {error}", err=True)
-        sys.exit(1)
+        fail(error)
 
 
 main.add_command(analyze)

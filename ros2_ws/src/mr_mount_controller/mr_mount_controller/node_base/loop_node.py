@@ -14,6 +14,7 @@ from rclpy.signals import SignalHandlerOptions
 
 from .listener import Listener
 from .parameters import ParameterError
+from .plain_text import readable
 from .shared_memory import remove_unfinished_segments
 
 # rclpy declares these itself on every node
@@ -140,7 +141,7 @@ def run_node(make_node, args=None, companions=()):
                     node.get_logger().warning(f"{node.refused} messages were refused")
             executor.shutdown()
     except (ParameterError, NodeError, RCLError) as error:
-        print(f"error: {error}", file=sys.stderr)
+        print(f"error: {readable(str(error))}", file=sys.stderr)
         return 2 if isinstance(error, ParameterError) else 1
     finally:
         for node in nodes:

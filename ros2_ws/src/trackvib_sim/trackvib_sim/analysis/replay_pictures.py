@@ -14,6 +14,8 @@ from .numbers import (
 from .plots import LOWEST_FREQUENCY, NAMES  # noqa: E402
 from .vibration import psd  # noqa: E402
 
+plt.rcParams["text.parse_math"] = False  # names of bags and laws come from outside
+
 COLOURS = ("#6b7785", "#c2410c")  # recorded, replayed
 SIDE_COLOURS = ("#1d5fa8", "#c98a00")
 PART = 0.5  # s, of which levels are drawn: of samples the last curve drawn would hide the others

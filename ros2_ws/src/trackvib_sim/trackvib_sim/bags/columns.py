@@ -11,7 +11,7 @@ import numpy as np
 from mr_mount_controller.node_base.cdr import find_layout
 
 from ..numerics.units import NANO
-from .mcap_chunks import at
+from .mcap_messages import at
 
 
 class Columns(NamedTuple):

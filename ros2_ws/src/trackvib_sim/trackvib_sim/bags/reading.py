@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+from mcap.records import Channel, Metadata, Schema
 from mr_mount_controller.node_base import topics
 from rosbags.serde import SerdeError
 
@@ -16,9 +17,11 @@ from .columns import Columns, Topic
 from .definitions import Definition
 from .errors import BagError
 from .files import bag_files
-from .mcap_chunks import PartedFile, take_apart
+from .limits import TooLarge
+from .mcap_records import DAMAGE
+from .mcap_walk import Walk
+from .raw_messages import NO_SCHEMA
 from .recording import Answers, Inertial, LoopCounts, Mounts, Odometry, Recording
-from .recovery import DAMAGE
 
 _SENSOR = Columns(topics.IMU_TYPE, Inertial, {
     "stamp": "header.stamp",
@@ -47,11 +50,11 @@ _RARE = {  # read message by message
     topics.ROAD_PROFILE: topics.ROAD_PROFILE_TYPE,
 }
 _TYPES = {end: columns.type_name for end, columns in COLUMNS.items()} | _RARE
-_NO_SCHEMA = 0  # id with which MCAP marks a channel without a definition, of a JSON log for instance
 _ANSWERS = ("accepted", "late", "duplicate", "not_finite")  # to samples that were out, among the diagnostics
-# lz4 raises RuntimeErrors; a definition that is damaged or not the one we know gives the others where it is applied
+# a definition that is damaged or not the one we know gives the others where it is applied
 _READ_ERRORS = (
-    OSError, *DAMAGE, SerdeError, RuntimeError, LookupError, OverflowError, AssertionError, AttributeError, TypeError,
+    OSError, TooLarge, *DAMAGE, SerdeError, RuntimeError, LookupError, OverflowError, AssertionError, AttributeError,
+    TypeError,
 )  # fmt: skip
 
 
@@ -108,16 +111,24 @@ class _Reading:
         """Read one file; ids of schemas and channels are its own."""
         schemas, channels, definitions = {}, {}, {}
         with file.open("rb") as stream:
-            parted = PartedFile(stream)
-            for part in parted.parts():
-                messages = take_apart(part.data, schemas, channels)
-                for channel_id in np.unique(messages.channel).tolist():
-                    channel = channels.get(channel_id)
+            walk = Walk(stream)
+            for part in walk.parts():
+                _require_undamaged(walk)
+                for record in part.others:
+                    if isinstance(record, Schema):
+                        schemas[record.id] = record
+                    elif isinstance(record, Channel):
+                        channels[record.id] = record
+                    elif isinstance(record, Metadata):
+                        self._provenance[record.name] = dict(record.metadata)
+                numbers = part.messages.head["channel"]
+                for number in np.unique(numbers).tolist():
+                    channel = channels.get(number)
                     schema = schemas.get(channel.schema_id) if channel else None
-                    if channel is None or (schema is None and channel.schema_id != _NO_SCHEMA):
-                        raise ValueError(f"messages on channel {channel_id}, which nothing announces")
-                    of_channel = messages.channel == channel_id
-                    start, size = messages.start[of_channel], messages.size[of_channel]
+                    if channel is None or (schema is None and channel.schema_id != NO_SCHEMA):
+                        raise ValueError(f"messages on channel {number}, which nothing announces")
+                    of_channel = numbers == number
+                    start, size = part.messages.start[of_channel], part.messages.size[of_channel]
                     self._counts[channel.topic] += len(start)
                     end = _end_of(channel.topic)
                     if end is not None and schema is not None and schema.name == _TYPES[end]:
@@ -125,8 +136,8 @@ class _Reading:
                             definitions[schema.id] = Definition(schema.name, schema.encoding, schema.data)
                         self._take(channel.topic, end, definitions[schema.id], part.data, start, size)
                 on_progress(part.end)
-            self._provenance |= parted.metadata
-            self._complete &= parted.complete
+            _require_undamaged(walk)
+            self._complete &= walk.complete
 
     def _take(self, topic, end, definition, data, start, size):
         if end in COLUMNS:
@@ -189,6 +200,13 @@ class _Reading:
             counts=self._counts,
             complete=self._complete,
         )
+
+
+def _require_undamaged(walk):
+    """Numbers with a hole that nobody sees are worse than none."""
+    for damage in walk.damage:
+        if damage.size:
+            raise ValueError(f"it is damaged at {damage}; `trackvib bag repair` keeps all else")
 
 
 def _end_of(topic):

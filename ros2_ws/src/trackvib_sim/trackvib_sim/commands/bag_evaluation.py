@@ -4,8 +4,7 @@ from datetime import datetime
 from os.path import realpath
 from pathlib import Path
 
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TimeRemainingColumn
 from rich.table import Table
 
 from ..analysis.analyse import analyse
@@ -16,6 +15,7 @@ from ..analysis.report.page import write_report
 from ..analysis.report.report_data import build_report_data
 from ..bags.files import bag_files
 from ..bags.reading import read_recording
+from ..console import Description, Terminal
 from .result_folder import CommandError, all_or_nothing
 
 
@@ -28,7 +28,7 @@ def run_analyze(bags, settle, out):
         A bag is given twice, cannot be read or is too short, or the folder exists or cannot be written. No folder is
         left then.
     """
-    console = Console(highlight=False, markup=False)  # paths and notes may hold brackets
+    console = Terminal()
     folder = out or Path("analyses") / f"{datetime.now():%Y%m%dT%H%M%S}"
     with all_or_nothing(folder) as folder:
         _require_different(bags)
@@ -66,7 +66,7 @@ def _require_different(bags):
 
 
 def _progress(console):
-    columns = (TextColumn("{task.description}", markup=False), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
+    columns = (Description(), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
     return Progress(*columns, console=console)
 
 

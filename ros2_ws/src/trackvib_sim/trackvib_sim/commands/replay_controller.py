@@ -16,11 +16,11 @@ from ..bags.qos import qos_record
 from ..bags.raw_messages import sample_messages
 from ..bags.reading import read_recording
 from ..bags.writing import BagWriter
+from ..console import followed
 from ..nodes.controller_trial import ControllerTrial
 from ..nodes.processes import LoopProcesses, closed_loop_parameters
 from ..numerics.units import NANO
 from .closed_loop_run import own_domain
-from .progress import followed
 from .result_folder import CommandError, make_folder, writing_to
 
 REPLAYED = "/replayed/current"  # topic of the new answers

@@ -5,6 +5,7 @@ import json
 import numpy as np
 from mr_mount_controller.laws import find_law
 from mr_mount_controller.node_base import topics
+from mr_mount_controller.node_base.plain_text import readable, shortened
 from rich.table import Table
 
 from ..analysis.analyse import analyse
@@ -19,13 +20,13 @@ from ..bags.files import called
 from ..bags.provenance import PARAMETERS_OF, parameters_with, write_parameters, write_versions
 from ..bags.reading import read_recording
 from ..bags.writing import BagWriter
+from ..console import followed
 from ..nodes.rerun_bag import RerunBag
 from ..nodes.simulator_parameters import prepare_again
 from ..numerics.units import NANO
 from ..simulation.closed_loop import periods_under_law
 from ..simulation.simulation import RunFailed
 from ..vehicle.mount_energy import mount_energy_account
-from .progress import followed
 from .result_folder import all_or_nothing
 
 
@@ -55,7 +56,7 @@ def _compare(recording, rerun, law, ended, folder):
     """Draw both drives over the same instants; returns what they are called, and their levels."""
     begin, last = start_of(recording), int(rerun.chassis.stamp[-1])
     recorded_law = parameters_with(recording.provenance, "law")[1].get("law", "law not told")
-    labels = (f"recorded ({recorded_law})", f"replayed ({law})")
+    labels = (f"recorded ({shortened(readable(recorded_law))})", f"replayed ({law})")
     both = _between(recording, begin, last, rerun), _between(rerun, begin, last, recording)
     drives = dict(zip(labels, both, strict=True))
     try:

@@ -9,11 +9,11 @@ from mr_mount_controller.node_base import topics
 from ..analysis.numbers import AXES, SIDES
 from ..bags.reading import COLUMNS, read_recording
 from ..bags.versions import versions
+from ..console import followed
 from ..nodes.simulator_parameters import prepare_again
 from ..numerics.units import NANO
 from ..simulation.recorded_currents import NotTold, currents_in_force
 from ..simulation.simulation import CHASSIS, POWERTRAIN, RunFailed
-from .progress import followed
 
 _PLACES = {2: SIDES, 3: AXES}  # along each dimension of a column, by its length
 _TAIL = NANO  # ns at the end of a bag in which its topics need not end together

@@ -4,10 +4,9 @@ import re
 from math import sqrt
 from typing import NamedTuple
 
-import yaml
-
 from ..vehicle.body_tree import GRAVITY
 from ..vehicle.tracks.layout import sink
+from ..yaml_text import load
 from .assembled_vehicle import assemble_vehicle
 from .sprocket_drawing import free_entry, half_gap
 
@@ -40,7 +39,7 @@ def parameters(text):
             Parameter(item, _words(each["value"]), each["unit"], each["source"], each.get("note", ""))
             for item, each in items.items()
         ]
-        for section, items in yaml.safe_load(text).items()
+        for section, items in load(text, "the vehicle file").items()
     }
 
 

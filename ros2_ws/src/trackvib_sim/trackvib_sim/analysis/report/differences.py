@@ -1,7 +1,7 @@
 """What differs between the runs of several bags, by the parameters and the vehicle files in them."""
 
 from ...bags.provenance import parameters
-from ...vehicle.vehicle_file import load_vehicle
+from ...yaml_text import load
 from .facts import UNKNOWN
 
 
@@ -40,9 +40,9 @@ def _of_vehicles(texts):
 def _entries(text):
     """Return a vehicle file's entries as text by their flattened keys; None of a text that is none."""
     try:
-        content = load_vehicle(text or "", "vehicle")
+        content = load(text or "", "vehicle")
         return dict(_flat(content)) if isinstance(content, dict) else None
-    except ValueError:  # as load_vehicle raises it, and from integers too long to be written out
+    except ValueError:  # as `load` raises it, and from integers too long to be written out
         return None
 
 

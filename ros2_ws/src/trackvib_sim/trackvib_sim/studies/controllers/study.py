@@ -6,10 +6,10 @@ from pathlib import Path
 
 import mr_mount_controller
 from mr_mount_controller.laws import find_law, known_laws
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 from rich.table import Table
 
+from ...console import Description, Terminal
 from ...data import default_vehicle_file
 from ...vehicle.vehicle_file import read_vehicle
 from ..case_store import CaseStore, whole_file
@@ -46,11 +46,11 @@ def run_controllers(laws, scenarios, seeds, vehicle_file, scheduler, out):
     classes = [find_law(name) for name in laws]
     path = Path(vehicle_file or default_vehicle_file())
     vehicle, text = read_vehicle(path)
-    folder, console = Path(out), Console(highlight=False)
+    folder, console = Path(out), Terminal()
     store = CaseStore(folder / "cases", text + controllers(classes), ControlCase, ControlResult)
     if store.foreign:
         console.print(f"{store.foreign} runs in {folder} are of another vehicle or version and are not used")
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    columns = (Description(), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console) as progress:
         found = run_missing(vehicle, cases(laws, scenarios, seeds), store, scheduler, progress, "runs", control)
     rows = table_rows(found)
