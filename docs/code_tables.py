@@ -7,7 +7,7 @@ from importlib.metadata import entry_points, requires
 import mr_mount_controller.laws
 import numpy as np
 import trackvib_sim.rui
-from mr_mount_controller.laws import find_law, known_laws
+from mr_mount_controller.laws import find_law, shipped_laws
 from mr_mount_controller.mount import HIGHEST_CURRENT, LOWEST_CURRENT, current_for_damping, damping, stiffness
 from mr_mount_controller.node import PARAMETERS as CONTROLLER
 from mr_mount_controller.node_base.topics import TOPICS
@@ -73,11 +73,6 @@ def laws():
         law = find_law(name)
         rows += [(f"**{name}**", "", "", law.__doc__.splitlines()[0]), *map(_parameter, law.parameters)]
     return rows
-
-
-def shipped_laws():
-    """Return the names of the laws that are not a user's."""
-    return [name for name in known_laws() if find_law(name).__module__.startswith("mr_mount_controller.")]
 
 
 def mount():

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mr_mount_controller.law_tables import shipped_laws
-from mr_mount_controller.laws import base, find_law, known_laws
+from mr_mount_controller.laws import base, find_law, known_laws, shipped_laws
 from mr_mount_controller.laws.base import ControlLaw, LawError, Sample, answer
 from mr_mount_controller.laws.passive import Passive
 from mr_mount_controller.laws.skyhook import Skyhook

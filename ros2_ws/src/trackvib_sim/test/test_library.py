@@ -27,6 +27,7 @@ NAMES = [
 # Only these import ROS, or what starts its nodes.
 OF_ROS = {
     "mr_mount_controller.node",
+    "mr_mount_controller.node_base.listener",
     "mr_mount_controller.node_base.loop_node",
     "mr_mount_controller.node_base.packed_message",
     "mr_mount_controller.node_base.qos",

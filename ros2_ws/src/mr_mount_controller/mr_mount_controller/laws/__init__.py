@@ -6,7 +6,7 @@ from importlib.metadata import entry_points
 from ..node_base.parameters import Parameter, ParameterError
 from .base import ControlLaw, LawError, Sample
 
-__all__ = ["ControlLaw", "LawError", "Parameter", "ParameterError", "Sample", "find_law", "known_laws"]
+__all__ = ["ControlLaw", "LawError", "Parameter", "ParameterError", "Sample", "find_law", "known_laws", "shipped_laws"]
 
 GROUP = "mr_mount_controller.laws"
 
@@ -21,6 +21,18 @@ def known_laws() -> list[str]:
     True
     """
     return sorted({entry.name for entry in entry_points(group=GROUP)})
+
+
+def shipped_laws() -> list[str]:
+    """Return the names of the laws of this package, not a user's, sorted.
+
+    Examples
+    --------
+    >>> from mr_mount_controller.laws import shipped_laws
+    >>> len(shipped_laws())
+    9
+    """
+    return [name for name in known_laws() if find_law(name).__module__.startswith(f"{__name__}.")]
 
 
 def find_law(name: str) -> type[ControlLaw]:

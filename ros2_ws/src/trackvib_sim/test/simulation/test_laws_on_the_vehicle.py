@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 from mr_mount_controller import mount
-from mr_mount_controller.law_tables import shipped_laws
-from mr_mount_controller.laws import find_law, two_mount_model
+from mr_mount_controller.laws import find_law, shipped_laws, two_mount_model
 from mr_mount_controller.laws.base import Sample
 from mr_mount_controller.laws.engine_speed import ORDERS, SPEEDS, EngineSpeedEstimator
 from mr_mount_controller.laws.passive import Passive
