@@ -179,3 +179,25 @@ def test_first_patch_of_another_road(start_node, observer):
     publisher.publish(RoadProfile(spacing=0.5, left=[0.0, 0.0], right=[0.0, 0.0]))
     observer.wait_until(lambda: observer.values["refused"] != before)
     assert_in_good_health(simulator)
+
+
+def test_one_message_is_no_second_clock(start_node, observer):
+    """A time far ahead ends no run; whose clock goes on is another simulator, and the one behind gives way."""
+    publisher = observer.node.create_publisher(Clock, "/clock", QoSProfile(depth=10))
+    start_node("road_excitation")
+    start_node("controller")
+    simulator = start_node("simulator")
+    observer.wait_for(state="running")
+    observer.wait_until(publisher.get_subscription_count)
+    ahead = Clock(clock=Time(sec=2**31 - 1, nanosec=999_999_999))
+    publisher.publish(ahead)
+    time = float(observer.values["time"])
+    observer.wait_until(lambda: float(observer.values["time"]) > time + 3.0)
+    assert simulator.running
+
+    def has_given_way():
+        publisher.publish(ahead)
+        return not simulator.running
+
+    observer.wait_until(has_given_way)
+    assert "error: another simulator drives /clock" in simulator.output
