@@ -39,7 +39,8 @@ LOOP = (  # topic, a message, quality of service
 def damaged(message):
     """Return bytes that are no message of that type: cut, of another encoding, with lengths that nothing bears out."""
     whole = bytearray(serialize_message(message))
-    cases = [b"", b"abc", bytes(whole[:4]), bytes(whole[:10]), b"\0\7\0\0" + whole[4:], bytes(len(whole))[:9]]
+    # an empty one would not even arrive: DDS holds it back, and with it all that its writer sends afterwards
+    cases = [b"\0", b"abc", bytes(whole[:4]), bytes(whole[:10]), b"\0\7\0\0" + whole[4:], bytes(len(whole))[:9]]
     place = 4 if isinstance(message, String) else 12
     if not isinstance(message, (Clock, Time)):
         for claim in (len(whole), 2**24, 2**31, 2**32 - 1):
@@ -118,7 +119,7 @@ def test_recorder_keeps_an_absurd_stamp_as_it_came(start_node, observer, tmp_pat
     sent.insert(300, (300 * MS, bytes(serialize_message(absurd))))
     for _, data in sent:
         publisher.publish(data)
-    publisher.publish(b"")
+    publisher.publish(b"abc")
     recorder.wait_for("refused")
     assert_in_good_health(recorder)
     records = [record for record in raw_records(tmp_path / "bag") if isinstance(record, RawMessage) and record.message]
@@ -178,3 +179,25 @@ def test_first_patch_of_another_road(start_node, observer):
     publisher.publish(RoadProfile(spacing=0.5, left=[0.0, 0.0], right=[0.0, 0.0]))
     observer.wait_until(lambda: observer.values["refused"] != before)
     assert_in_good_health(simulator)
+
+
+def test_one_message_is_no_second_clock(start_node, observer):
+    """A time far ahead ends no run; whose clock goes on is another simulator, and the one behind gives way."""
+    publisher = observer.node.create_publisher(Clock, "/clock", QoSProfile(depth=10))
+    start_node("road_excitation")
+    start_node("controller")
+    simulator = start_node("simulator")
+    observer.wait_for(state="running")
+    observer.wait_until(publisher.get_subscription_count)
+    ahead = Clock(clock=Time(sec=2**31 - 1, nanosec=999_999_999))
+    publisher.publish(ahead)
+    time = float(observer.values["time"])
+    observer.wait_until(lambda: float(observer.values["time"]) > time + 3.0)
+    assert simulator.running
+
+    def has_given_way():
+        publisher.publish(ahead)
+        return not simulator.running
+
+    observer.wait_until(has_given_way)
+    assert "error: another simulator drives /clock" in simulator.output

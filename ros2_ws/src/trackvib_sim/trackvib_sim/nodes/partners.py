@@ -1,6 +1,7 @@
 """Whom the simulator waits for at the start, and whom it watches then: another simulator, and the recorder."""
 
 import time
+from math import inf
 
 from builtin_interfaces.msg import Time
 from mr_mount_controller.node_base import topics
@@ -12,6 +13,8 @@ from ..numerics.units import NANO
 
 # A message waits in a queue of 1000 at worst, so a recorder this far behind has lost nothing yet.
 _LAG = NANO // 4  # ns of simulated time
+_LISTENING = 0.7  # s in which a simulator that is there already makes itself known
+_AGAIN = 1.0  # s after which one that stands still has told its time again
 _TIMEOUT = 10.0  # s of wall time
 _SETTLING = 0.3  # s without a new partner; a controller's two subscriptions are not found in the same instant
 
@@ -33,14 +36,24 @@ class Gathering:
 
 
 class SecondClock:
-    """Notices another simulator in the ROS domain: of two, the one whose clock is behind gives way."""
+    """Notices another simulator in the ROS domain: of two, the one whose clock is behind gives way.
 
-    def __init__(self, node, time):
-        """Listen to the clock; `time()` is the node's own simulated time [ns]."""
+    A single message that is ahead is none: a clock goes on, and one that stands still repeats itself.
+    """
+
+    def __init__(self, node, simulated_time):
+        """Listen to the clock; `simulated_time()` is the node's own simulated time [ns]."""
         self.ahead = False
-        self._time = time
+        self._node, self._time = node, simulated_time
+        self._heard = -inf  # wall time of the latest message that was ahead, s
         self._own = 0  # the latest time that the node has ever published, ns: its own clock goes back, too
         node.listen(Clock, topics.CLOCK, self._on_clock, CLOCK_QOS)
+
+    def listen(self):
+        """Listen for as long as a simulator that is there already needs to make itself known."""
+        self._node.spin_until(lambda: self._heard > -inf, _LISTENING)
+        if self._heard > -inf:
+            self._node.spin_until(lambda: self.ahead, _AGAIN)
 
     def refuse(self):
         """Raise `NodeError` if there is one that is ahead."""
@@ -52,7 +65,9 @@ class SecondClock:
         self._own = max(self._own, self._time())
 
     def _on_clock(self, message):
-        self.ahead |= message.clock.sec * NANO + message.clock.nanosec > max(self._own, self._time())
+        if message.clock.sec * NANO + message.clock.nanosec > max(self._own, self._time()):
+            before, self._heard = self._heard, time.monotonic()
+            self.ahead |= self._heard - before < _AGAIN
 
 
 class RecorderLag:

@@ -21,7 +21,6 @@ from .run_control import RunControl
 from .simulator_parameters import PARAMETERS, prepare
 from .timing import PhaseClock
 
-_LISTENING = 0.7  # s in which a simulator that is there already makes itself known
 _REPEAT = 0.5  # s of wall time after which a run that stands still says so again
 _ROAD_PATIENCE = 2.0  # s for the road of a run that begins anew
 
@@ -59,7 +58,7 @@ class SimulatorNode(LoopNode):
 
     def run(self):
         """Wait for the partners, then run period after period until the duration is over or a stop is asked for."""
-        self.spin_until(lambda: self._second_clock.ahead, _LISTENING)
+        self._second_clock.listen()
         self._second_clock.refuse()
         self._output.introduce()
         self._wait_for_partners()
