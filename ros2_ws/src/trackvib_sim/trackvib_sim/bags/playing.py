@@ -7,6 +7,7 @@ from rosbags.highlevel import AnyReader, AnyReaderError
 from rosbags.interfaces import QosDurability, QosReliability
 from rosbags.rosbag2 import ReaderError
 
+from ..numerics.units import NANO
 from ..yaml_text import YamlTextError
 from .errors import BagError
 from .files import bag_files
@@ -15,6 +16,7 @@ from .mcap_records import DAMAGE
 from .mcap_summary import examine
 from .metadata import declared_qos
 
+_LATEST = ((1 << 31) - 1) * NANO  # ns, the last second that a message of ROS 2 can name
 # what rosbags' reader does with definitions and records that it does not expect
 _READ_ERRORS = (OSError, AnyReaderError, ReaderError, *DAMAGE, LookupError, TypeError, AttributeError, AssertionError)
 
@@ -40,9 +42,12 @@ def open_bag(path):
         reader.open()
     except _READ_ERRORS as error:
         raise BagError(f"bag {str(path)!r} cannot be read: {error}") from None
-    if not reader.message_count:
+    flaw = "holds no messages" if not reader.message_count else ""
+    if reader.message_count and reader.end_time > _LATEST:
+        flaw = f"ends at {reader.end_time} ns, accepted is up to {_LATEST}"
+    if flaw:
         reader.close()
-        raise BagError(f"bag {str(path)!r} holds no messages")
+        raise BagError(f"bag {str(path)!r} {flaw}")
     return reader
 
 
