@@ -70,7 +70,7 @@ class PlayerNode(LoopNode):
         """Wait until somebody listens, then play until the end or a stop."""
         names = sorted(publisher.topic_name for publisher in self._outputs.values())  # as remapped
         self.get_logger().info(f"waiting for somebody who listens to {', '.join(names)}")
-        gathering = Gathering(self._listeners)
+        gathering = Gathering(self._subscribers)
         self.spin_until(gathering.complete)
         while not self.stopping():
             self._control.state = "running"
@@ -121,7 +121,7 @@ class PlayerNode(LoopNode):
         except ValueError as error:  # also of a name that ROS 2 does not accept
             raise NodeError(f"{connection.topic} cannot be played: {error}") from None
 
-    def _listeners(self):
+    def _subscribers(self):
         return [sum(publisher.get_subscription_count() for publisher in self._outputs.values())]
 
     def _play(self):
