@@ -8,7 +8,6 @@ from rosbags.interfaces import QosDurability, QosReliability
 from rosbags.rosbag2 import ReaderError
 
 from ..numerics.units import NANO
-from ..yaml_text import YamlTextError
 from .errors import BagError
 from .files import bag_files
 from .limits import TooLarge, largest_record, too_large
@@ -35,7 +34,7 @@ def open_bag(path):
     for file in files:
         try:
             _require_sound(file)
-        except (OSError, TooLarge, YamlTextError) as error:
+        except (OSError, TooLarge, ValueError) as error:
             raise BagError(f"bag {str(path)!r} cannot be read: {error}") from None
     try:
         reader = AnyReader(files)
@@ -52,13 +51,13 @@ def open_bag(path):
 
 
 def _require_sound(file):
-    """Raise an error unless a file is whole, can be read in order of time in bounded memory, and its QoS is read."""
+    """Raise ValueError or TooLarge unless a file is whole, its QoS readable, and order of time takes little memory."""
     try:
         findings = examine(file)
     except InvalidMagic:
-        raise BagError(f"{str(file)!r} is no MCAP file") from None
+        raise ValueError(f"{file.name!r} is no MCAP file") from None
     if findings.flaw:
-        raise BagError(f"bag file {str(file)!r} is {findings.flaw}; `trackvib bag repair` completes it")
+        raise ValueError(f"{file.name!r} is {findings.flaw}; `trackvib bag repair` completes it")
     for channel in findings.channels:
         declared_qos(channel)
     # all chunks that overlap in time are held at once
