@@ -11,6 +11,7 @@ from mr_mount_controller.node_base.parameters import Parameter, ParameterError
 from mr_mount_controller.node_base.qos import CLOCK_QOS
 from mr_mount_controller.node_base.topics import CLOCK
 from rclpy.duration import Duration
+from rclpy.exceptions import NameValidationException
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
@@ -118,8 +119,9 @@ class PlayerNode(LoopNode):
         try:
             kind = message_type(connection.msgtype)
             return self.create_publisher(kind, connection.topic.removeprefix("/"), qos)
-        except ValueError as error:  # also of a name that ROS 2 does not accept
-            raise NodeError(f"{connection.topic} cannot be played: {error}") from None
+        except (ValueError, NameValidationException) as error:
+            reason = str(error).splitlines()[0]
+            raise NodeError(f"{connection.topic} cannot be played: {reason}") from None
 
     def _subscribers(self):
         return [sum(publisher.get_subscription_count() for publisher in self._outputs.values())]
