@@ -5,6 +5,7 @@ import sys
 
 import click
 from mr_mount_controller.laws import known_laws
+from mr_mount_controller.node_base.plain_text import readable
 
 from .commands.analyze_cli import analyze
 from .commands.bag_cli import bag
@@ -21,6 +22,9 @@ class _Verbs(click.Group):
     def invoke(self, context):
         try:
             return super().invoke(context)
+        except click.ClickException as error:
+            error.message = readable(error.message)  # it may name a file
+            raise
         except KeyboardInterrupt:
             say("interrupted")
             sys.exit(INTERRUPTED)

@@ -73,7 +73,7 @@ def validated(model, text, name):
 
 def _bounded(text, name, read):
     if len(text) > LARGEST:
-        raise YamlTextError(f"{name}: has {len(text)} characters, accepted are {LARGEST}")
+        raise YamlTextError(readable(f"{name}: has {len(text)} characters, accepted are {LARGEST}"))
     try:
         return read()
     # all but the first from tagged values that PyYAML does not check: impossible dates, `!!bool x`, `!!int ''`

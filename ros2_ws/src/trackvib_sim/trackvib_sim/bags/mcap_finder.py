@@ -70,8 +70,11 @@ class RecordFinder:
         self._stream.seek(place)
         return self._stream.read(size)
 
-    def record(self, place):
-        """Return the `Record` at a place; raises one of `DAMAGE` where none holds."""
+    def record(self, place, strict=False):
+        """Return the `Record` at a place; raises one of `DAMAGE` where none holds.
+
+        `strict`: what contradicts itself does not hold, and is not unfolded to see.
+        """
         opcode, length = _FRAME.unpack(self.bytes_at(place, FRAME))
         end = place + FRAME + length
         if opcode in _KNOWN and opcode != Opcode.CHUNK and end <= self.size:
@@ -82,7 +85,7 @@ class RecordFinder:
         else:
             reason = ValueError(f"a record with opcode {opcode} that claims {length} bytes")
         try:
-            return self._chunk(place, opcode, length)
+            return self._chunk(place, opcode, length, strict)
         except DAMAGE as error:
             if opcode >= PRIVATE and self._plausible(end):
                 return Record(opcode, b"", end)
@@ -101,7 +104,7 @@ class RecordFinder:
         flaw = "the record that ends the data is missing" if opcode == Opcode.FOOTER else ""
         return Record(opcode, content, end, flaw=flaw)
 
-    def _chunk(self, place, opcode, length):
+    def _chunk(self, place, opcode, length, strict):
         """Return the `Record` of a chunk: its end is told by its frame and by its head, of which one may be damaged."""
         head = self.bytes_at(place + FRAME, _CHUNK.size + _COMPRESSION + _LENGTH.itemsize)
         first, last, size, checksum, name = _CHUNK.unpack_from(head)
@@ -111,6 +114,8 @@ class RecordFinder:
         (declared,) = struct.unpack_from("<Q", head, _CHUNK.size + name)
         start = place + FRAME + _CHUNK.size + name + _LENGTH.itemsize
         by_head, by_frame = start + declared, place + FRAME + length
+        if strict and (opcode != Opcode.CHUNK or by_head != by_frame):
+            raise ValueError("a chunk that contradicts itself")
         reason = ValueError("a chunk that claims more bytes than there are")
         for end in sorted({by_head, by_frame}):  # the nearer one first: bytes too many need not show
             what = f"the chunk at byte {place}"
@@ -156,7 +161,7 @@ class RecordFinder:
             start = start[at(window, _LENGTH, start + 1) <= (self.size - place - FRAME - start).astype(np.uint64)]
             for candidate in (place + start).tolist():
                 try:
-                    self.record(candidate)
+                    self.record(candidate, strict=True)
                 except DAMAGE:
                     continue
                 return candidate

@@ -7,7 +7,7 @@ from rosbags.highlevel import AnyReader, AnyReaderError
 from rosbags.interfaces import QosDurability, QosReliability
 from rosbags.rosbag2 import ReaderError
 
-from ..yaml_text import YamlTextError
+from ..numerics.units import NANO
 from .errors import BagError
 from .files import bag_files
 from .limits import TooLarge, largest_record, too_large
@@ -15,6 +15,7 @@ from .mcap_records import DAMAGE
 from .mcap_summary import examine
 from .metadata import declared_qos
 
+_LATEST = ((1 << 31) - 1) * NANO  # ns, the last second that a message of ROS 2 can name
 # what rosbags' reader does with definitions and records that it does not expect
 _READ_ERRORS = (OSError, AnyReaderError, ReaderError, *DAMAGE, LookupError, TypeError, AttributeError, AssertionError)
 
@@ -33,27 +34,30 @@ def open_bag(path):
     for file in files:
         try:
             _require_sound(file)
-        except (OSError, TooLarge, YamlTextError) as error:
+        except (OSError, TooLarge, ValueError) as error:
             raise BagError(f"bag {str(path)!r} cannot be read: {error}") from None
     try:
         reader = AnyReader(files)
         reader.open()
     except _READ_ERRORS as error:
         raise BagError(f"bag {str(path)!r} cannot be read: {error}") from None
-    if not reader.message_count:
+    flaw = "holds no messages" if not reader.message_count else ""
+    if reader.message_count and reader.end_time > _LATEST:
+        flaw = f"ends at {reader.end_time} ns, accepted is up to {_LATEST}"
+    if flaw:
         reader.close()
-        raise BagError(f"bag {str(path)!r} holds no messages")
+        raise BagError(f"bag {str(path)!r} {flaw}")
     return reader
 
 
 def _require_sound(file):
-    """Raise an error unless a file is whole, can be read in order of time in bounded memory, and its QoS is read."""
+    """Raise ValueError or TooLarge unless a file is whole, its QoS readable, and order of time takes little memory."""
     try:
         findings = examine(file)
     except InvalidMagic:
-        raise BagError(f"{str(file)!r} is no MCAP file") from None
+        raise ValueError(f"{file.name!r} is no MCAP file") from None
     if findings.flaw:
-        raise BagError(f"bag file {str(file)!r} is {findings.flaw}; `trackvib bag repair` completes it")
+        raise ValueError(f"{file.name!r} is {findings.flaw}; `trackvib bag repair` completes it")
     for channel in findings.channels:
         declared_qos(channel)
     # all chunks that overlap in time are held at once

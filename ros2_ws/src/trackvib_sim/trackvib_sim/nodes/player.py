@@ -11,6 +11,7 @@ from mr_mount_controller.node_base.parameters import Parameter, ParameterError
 from mr_mount_controller.node_base.qos import CLOCK_QOS
 from mr_mount_controller.node_base.topics import CLOCK
 from rclpy.duration import Duration
+from rclpy.exceptions import NameValidationException
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
@@ -70,7 +71,7 @@ class PlayerNode(LoopNode):
         """Wait until somebody listens, then play until the end or a stop."""
         names = sorted(publisher.topic_name for publisher in self._outputs.values())  # as remapped
         self.get_logger().info(f"waiting for somebody who listens to {', '.join(names)}")
-        gathering = Gathering(self._listeners)
+        gathering = Gathering(self._subscribers)
         self.spin_until(gathering.complete)
         while not self.stopping():
             self._control.state = "running"
@@ -118,10 +119,11 @@ class PlayerNode(LoopNode):
         try:
             kind = message_type(connection.msgtype)
             return self.create_publisher(kind, connection.topic.removeprefix("/"), qos)
-        except ValueError as error:  # also of a name that ROS 2 does not accept
-            raise NodeError(f"{connection.topic} cannot be played: {error}") from None
+        except (ValueError, NameValidationException) as error:
+            reason = str(error).splitlines()[0]
+            raise NodeError(f"{connection.topic} cannot be played: {reason}") from None
 
-    def _listeners(self):
+    def _subscribers(self):
         return [sum(publisher.get_subscription_count() for publisher in self._outputs.values())]
 
     def _play(self):
