@@ -7,7 +7,8 @@ MOUNT_STATE = "mount_state"
 ODOMETRY = "odometry"
 ROAD_PROFILE = "road_profile"
 VEHICLE_DESCRIPTION = "vehicle_description"
-RECORDED = "recorder/recorded"  # time up to which the recorder has written
+RECORDED = "recorder/recorded"  # time up to which the recorder has written every sample
+RECORDED_ANSWERS = "recorder/recorded_answers"  # likewise every answer
 CLOCK = "/clock"
 DIAGNOSTICS = "/diagnostics"
 

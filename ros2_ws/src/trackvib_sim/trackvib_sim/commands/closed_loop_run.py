@@ -14,6 +14,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
 from ..analysis.bag_analysis import analyse
+from ..analysis.completeness import missing
 from ..analysis.plots import run_picture
 from ..analysis.settling import settling_time
 from ..analysis.summary import AXES, SENSORS, SHORTEST_MEASURING, prepare, summarise
@@ -58,7 +59,8 @@ def run_loop(choices, out):
     Raises
     ------
     CommandError
-        The duration is too short, the folder exists, a node ended on its own, or the bag cannot be read.
+        The duration is too short, the folder exists, a node ended on its own, or the bag cannot be read or lacks
+        something that the simulator counted.
     KeyboardInterrupt
         After the nodes have ended in order and what there is has been summarised.
     """
@@ -78,9 +80,11 @@ def run_loop(choices, out):
         interrupt = _run_nodes(choices, folder, console)
     try:
         with writing_to(folder):
-            _evaluate(choices, folder, console)
+            lacking = _evaluate(choices, folder, console)
     except (BagError, ValueError) as error:
         raise interrupt or CommandError(str(error)) from None
+    if lacking:
+        raise CommandError(f"the bag in {str(folder)!r} is not complete, it lacks {', '.join(lacking)}") from interrupt
     if interrupt is not None:
         raise interrupt
 
@@ -160,6 +164,7 @@ def _follow(processes, duration, console):
 
 
 def _evaluate(choices, folder, console):
+    """Leave summary and picture; returns in words what the bag lacks."""
     # of a run that was reset the last epoch; its bag has the highest number
     bag = max(folder.glob("bag*"), key=lambda path: (len(path.name), path.name))
     recording = read_recording(bag)
@@ -169,6 +174,7 @@ def _evaluate(choices, folder, console):
     with (folder / "summary.txt").open("w", encoding="utf-8") as file:
         _print_summary(Console(file=file, width=100, markup=False), summary, folder)
     _print_summary(console, summary, folder)
+    return missing(recording)
 
 
 def _print_summary(console, summary, folder):
