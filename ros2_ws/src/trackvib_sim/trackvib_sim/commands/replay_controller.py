@@ -48,7 +48,10 @@ def run_replay_controller(bag, law, out, console):
     title = f"{called(bag)} into {law or 'a controller'}"
     with own_domain(), all_or_nothing(out) as folder:
         replayed, interrupt = _replay_into_bag(recording, law, folder, console)
-        summary |= {"answered": len(replayed), **_compare(_answers(recording), replayed, folder / "currents.png", title)}
+        summary |= {
+            "answered": len(replayed),
+            **_compare(_answers(recording), replayed, folder / "currents.png", title),
+        }
         (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
     if interrupt is not None:
         raise interrupt

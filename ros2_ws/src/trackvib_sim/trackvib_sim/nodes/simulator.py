@@ -44,9 +44,7 @@ class SimulatorNode(LoopNode):
         self._control = RunControl(self, self._time)
         self._second_clock = SecondClock(self, self._time)
         period = self._simulation.settings.rates.period
-        self._recorder = (
-            RecorderLag(self, period, self._time, lambda: self._heard) if s["wait_for_recorder"] else None
-        )
+        self._recorder = RecorderLag(self, period, self._time, lambda: self._heard) if s["wait_for_recorder"] else None
 
     def _time(self):  # ns
         return self._simulation.time
