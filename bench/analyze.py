@@ -21,16 +21,17 @@ import click
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from machine import machine
+from mr_mount_controller.node_base.cdr import find_layout
 from rclpy.serialization import serialize_message
 from rich.console import Console
 from rich.table import Table
 from rosbags.highlevel import AnyReader
 from trackvib_msgs.msg import RoadProfile
-from trackvib_sim.analysis.bag_analysis import analyse
+from trackvib_sim.analysis.analyse import analyse
 from trackvib_sim.analysis.bag_tables import write_tables
 from trackvib_sim.analysis.report.page import write_report
 from trackvib_sim.analysis.report.report_data import build_report_data
-from trackvib_sim.bags.cdr_layout import find_layout, type_store
+from trackvib_sim.bags.definitions import Definition
 from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.bags.schemas import schema_text
 from trackvib_sim.bags.writing import BagWriter
@@ -54,8 +55,8 @@ DECODED = 100_000  # messages, by the peer
 def rare_messages():
     """Return type, distance in periods, and a message by topic."""
     heights = np.zeros(100)
-    told = [KeyValue(key=name, value="0") for name in ("silent_periods", *map(str, range(30)))]
-    status = DiagnosticArray(status=[DiagnosticStatus(name="simulator", values=told)])
+    values = [KeyValue(key=name, value="0") for name in ("silent_periods", *map(str, range(30)))]
+    status = DiagnosticArray(status=[DiagnosticStatus(name="simulator", values=values)])
     road = RoadProfile(spacing=0.05, left=heights, right=heights)
     return {
         "/diagnostics": ("diagnostic_msgs/msg/DiagnosticArray", 100, serialize_message(status)),
@@ -76,9 +77,9 @@ def write(path, minutes):
         if topic == "/odometry":
             empty.child_frame_id = "another"
         message = serialize_message(empty)
-        store = type_store(type_name, "ros2msg", schema_text(type_name).encode())
+        definition = Definition(type_name, "ros2msg", schema_text(type_name).encode())
         wanted = {f"{stamp}.sec": (), f"{stamp}.nanosec": (), **noise}
-        templates[topic] = find_layout(store, type_name, message, wanted).numbers, message
+        templates[topic] = find_layout(definition.kind, message, wanted).numbers, message
     for minute in range(minutes):
         columns = []
         for topic, (_, stamp, noise, every) in TOPICS.items():

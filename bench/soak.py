@@ -23,8 +23,8 @@ LOOK = 0.2  # s
 PROCESSES = {name: package for name, package in FOUR_PROCESSES.items() if name != "recorder"}
 
 
-def follow(processes, exchanges):
-    """Show progress until a process ends; return the last that the simulator told."""
+def wait_for_end(processes, exchanges):
+    """Show progress until a process ends; return the last that the simulator reported."""
     with Watch() as watch, Progress() as progress:
         task = progress.add_task("exchanges", total=exchanges)
         while not processes.ended():
@@ -46,7 +46,7 @@ def main(exchanges, road_class):
     with tempfile.TemporaryDirectory() as logs:
         processes = LoopProcesses(PROCESSES, closed_loop_parameters(), overrides, logs)
         try:
-            told = follow(processes, exchanges)
+            reported = wait_for_end(processes, exchanges)
         finally:
             codes = processes.stop()
         said = {name: processes.last_words(name) for name in PROCESSES}
@@ -57,7 +57,9 @@ def main(exchanges, road_class):
     accepted = counts.pop("accepted")
     gaps = int((re.findall(r"(\d+) gaps", said["controller"]) or [0])[-1])
     print(f"{exchanges} samples, {accepted} answered, {gaps} gaps seen by the controller")
-    print(", ".join(f"{count} {name}" for name, count in counts.items()), f"; {told['real_time_factor']} x real time")
+    print(
+        ", ".join(f"{count} {name}" for name, count in counts.items()), f"; {reported['real_time_factor']} x real time"
+    )
     if accepted != exchanges or gaps or any(counts.values()):
         sys.exit("the loop does not hold")
 

@@ -186,7 +186,7 @@ def test_a_killed_controller(start_node, observer, tmp_path, policy):
     assert simulator.wait() == 0, simulator.output
     recorder.signal(signal.SIGINT)
     assert recorder.wait() == 0
-    silent = int(read_recording(tmp_path / "bag").told.silent_periods[-1])
+    silent = int(read_recording(tmp_path / "bag").loop_counts.silent_periods[-1])
     assert 100 < silent < 3000
     assert check(tmp_path / "bag")[0]
 

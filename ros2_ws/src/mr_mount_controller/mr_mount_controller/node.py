@@ -10,11 +10,14 @@ from trackvib_msgs.msg import CoilCurrent
 
 from .laws import find_law
 from .laws.base import LawError, Sample, answer
+from .node_base.cdr import NANO
+from .node_base.listener import Refused
 from .node_base.loop_node import LoopNode, NodeError, run_node
-from .node_base.packed_message import NANO, MessageReader
+from .node_base.packed_message import MessageReader
 from .node_base.parameters import Parameter, ParameterError
 from .node_base.patience import wait_until
 from .node_base.qos import LOOP_QOS, LOOP_WRITER_QOS
+from .node_base.topics import CHASSIS_IMU, COIL_CURRENT, POWERTRAIN_IMU
 
 PARAMETERS = (
     Parameter("law", "passive", "Control law: a known name, or package.module:Class."),
@@ -22,6 +25,7 @@ PARAMETERS = (
     Parameter("wait_for_recorder", False, "Answer nothing before a recorder listens to the currents, too."),
 )
 _PATIENCE = 10.0  # s of wall time for those who shall hear the answers
+_GREATEST = 1e6  # m/s^2 or rad/s; no sensor measures more
 _CLASH = 5  # wrong steps from the very first sample on are not gaps but another rate
 
 
@@ -31,6 +35,14 @@ class Reading(NamedTuple):
     stamp: int  # ns
     force: tuple  # specific force, m/s^2
     angular_velocity: tuple  # rad/s
+
+
+def _reading(imu):
+    """Return a `Reading` of what a `MessageReader` returns; `Refused` if no sensor measures that."""
+    stamp, numbers = imu
+    if not all(-_GREATEST <= number <= _GREATEST for number in numbers):  # NaN is not either
+        raise Refused(f"a measured number of {numbers} is not finite or beyond {_GREATEST:g}")
+    return Reading(stamp, tuple(numbers[3:]), tuple(numbers[:3]))
 
 
 class ControllerNode(LoopNode):
@@ -45,16 +57,16 @@ class ControllerNode(LoopNode):
             raise ParameterError(f"controller: parameter 'sample_rate' is {rate}, accepted are divisors of {NANO} Hz")
         self._period = NANO // rate
         self._law = law(self._period / NANO, **values)
-        self._imu = MessageReader(Imu, {"header": "iI", "angular_velocity": "3d", "linear_acceleration": "3d"})
         self._chassis = self._powertrain = None  # latest readings
         self._last = None  # stamp answered last, ns
         self._sample = None  # the sample answered last
         self._steps = self._gaps = 0  # between samples, and those among them that were not one period
         self._answer = CoilCurrent()
         self._stamp = self._answer.header.stamp = self._answer.sample_stamp
-        self._currents = self.create_publisher(CoilCurrent, "coil_current", LOOP_WRITER_QOS)
-        self.create_subscription(Imu, "chassis/imu", self._on_chassis, LOOP_QOS, raw=True)
-        self.create_subscription(Imu, "powertrain/imu", self._on_powertrain, LOOP_QOS, raw=True)
+        self._currents = self.create_publisher(CoilCurrent, COIL_CURRENT, LOOP_WRITER_QOS)
+        for topic, on_imu in ((CHASSIS_IMU, self._on_chassis), (POWERTRAIN_IMU, self._on_powertrain)):
+            imu = MessageReader(Imu, "header.stamp", {"angular_velocity": 3, "linear_acceleration": 3})
+            self.listen(Imu, topic, on_imu, LOOP_QOS, imu.read)
 
     def run(self):
         """Say what runs, wait for a simulator or vehicle, answer until told to stop."""
@@ -67,17 +79,13 @@ class ControllerNode(LoopNode):
         if self._gaps:
             self.get_logger().warning(f"{self._gaps} gaps between the stamps of the samples")
 
-    def _on_chassis(self, data):
-        self._chassis = self._reading(data)
+    def _on_chassis(self, imu):
+        self._chassis = _reading(imu)
         self._pair()
 
-    def _on_powertrain(self, data):
-        self._powertrain = self._reading(data)
+    def _on_powertrain(self, imu):
+        self._powertrain = _reading(imu)
         self._pair()
-
-    def _reading(self, data):
-        seconds, nanoseconds, *numbers = self._imu.read(data)
-        return Reading(seconds * NANO + nanoseconds, tuple(numbers[3:]), tuple(numbers[:3]))
 
     def _pair(self):
         chassis, powertrain = self._chassis, self._powertrain

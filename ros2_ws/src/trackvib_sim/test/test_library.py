@@ -36,7 +36,7 @@ OF_ROS = {
 }
 # What a bare installation has not.
 EXTRAS = ("click", "cma", "distributed", "jinja2", "matplotlib", "pinocchio", "plotly", "pyarrow", "rich")
-BASE = ("rui", "numerics", "road", "vehicle", "simulation", "bags", "analysis.bag_analysis", "data")
+BASE = ("rui", "numerics", "road", "vehicle", "simulation", "bags", "analysis.analyse", "data")
 
 
 @pytest.fixture(scope="module")

@@ -24,7 +24,7 @@ from .simulation.simulation import Simulation as Simulation
 from .bags.errors import BagError as BagError
 from .bags.reading import read_recording as read_recording
 from .bags.recording import Recording as Recording
-from .analysis.bag_analysis import analyse as analyse
+from .analysis.analyse import analyse as analyse
 from .analysis.numbers import Analysis as Analysis
 
 # the method

@@ -8,6 +8,7 @@ from mr_mount_controller.laws import known_laws
 
 from .commands.analyze_cli import analyze
 from .commands.bag_cli import bag
+from .commands.endings import fail, say
 from .commands.option_types import INTERRUPTED, FiniteRange, known_law
 from .commands.replay_cli import replay
 from .commands.study_cli import study
@@ -26,11 +27,10 @@ class _Verbs(click.Group):
             with lasting_output():
                 return super().invoke(context)
         except KeyboardInterrupt:
-            click.echo("interrupted", err=True)
+            say("interrupted")
             sys.exit(INTERRUPTED)
         except OutputLost as error:
-            click.echo(f"error: {error}", err=True)
-            sys.exit(1)
+            fail(error)
 
 
 @click.group(cls=_Verbs, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -81,8 +81,7 @@ def run(road_class, speed, duration, law, seed, one_process, out):
     try:
         run_loop(Choices(road_class, speed, duration, law, seed, one_process), out)
     except CommandError as error:
-        click.echo(f"error: {error}", err=True)
-        sys.exit(1)
+        fail(error)
 
 
 @main.command()
@@ -111,8 +110,7 @@ def modes(current, highest, out):
     try:
         run_modes(current, highest, out)
     except (CommandError, ValueError, OSError) as error:
-        click.echo(f"error: {error}", err=True)
-        sys.exit(1)
+        fail(error)
 
 
 @main.command()
@@ -133,8 +131,7 @@ def vehicle(vehicle, out):
     try:
         run_vehicle(vehicle, out)
     except (CommandError, ValueError, OSError) as error:
-        click.echo(f"error: {error}", err=True)
-        sys.exit(1)
+        fail(error)
 
 
 main.add_command(analyze)

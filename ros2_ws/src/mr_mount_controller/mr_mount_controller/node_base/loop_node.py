@@ -11,8 +11,10 @@ from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
+from .listener import Listener
 from .parameters import ParameterError
 from .patience import wait_until
+from .plain_text import readable
 from .shared_memory import remove_unfinished_segments
 
 # rclpy declares these itself on every node
@@ -30,6 +32,7 @@ class LoopNode(Node):
     def __init__(self, name, parameters):
         super().__init__(name)
         self.settings = {parameter.name: self._declare(parameter) for parameter in parameters}
+        self._listeners = []
         self._spin = None
         self.stopping = lambda: False
 
@@ -38,6 +41,16 @@ class LoopNode(Node):
         values = {parameter.name: self._declare(parameter) for parameter in parameters}
         self.settings |= values
         return values
+
+    def listen(self, message_type, topic, on_message, qos, read=None):
+        """Subscribe as `Listener` does; returns the subscription."""
+        self._listeners.append(Listener(self, message_type, topic, on_message, qos, read))
+        return self._listeners[-1].subscription
+
+    @property
+    def refused(self):
+        """How many messages could not be used."""
+        return sum(listener.refused for listener in self._listeners)
 
     def refuse_unknown_parameters(self):
         """Raise `ParameterError` for a value given to a parameter that the node does not have."""
@@ -119,9 +132,11 @@ def run_node(make_node, args=None, companions=()):
         finally:
             for node in reversed(nodes):
                 node.close()
+                if node.refused:
+                    node.get_logger().warning(f"{node.refused} messages were refused")
             executor.shutdown()
     except (ParameterError, NodeError, RCLError) as error:
-        print(f"error: {error}", file=sys.stderr)
+        print(f"error: {readable(str(error))}", file=sys.stderr)
         return 2 if isinstance(error, ParameterError) else 1
     finally:
         for node in nodes:

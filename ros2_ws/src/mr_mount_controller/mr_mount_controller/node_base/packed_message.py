@@ -2,22 +2,16 @@
 
 rclpy translates every field of a message each time it is published or taken, the covariances and names that never
 change or that nobody reads with the numbers that matter. Here only these numbers are written and read, where they
-stand in the bytes (CDR).
+stand in the bytes.
 """
 
-from copy import deepcopy
-from functools import cache
 from struct import Struct
 
 import numpy as np
 from rclpy.serialization import serialize_message
 
-from .cdr import NANO
-
-_STAMP = 4  # bytes of the encapsulation before the header's stamp
-_NAME = _STAMP + 12  # where the frame's name stands, behind its length
-_MARK = 7.2973525693e-3  # in no field of ours by itself, as little as the next
-_MARKED_SECOND = 1_987_654_321
+from .cdr import NANO, Checker, LayoutError, byte_order, find_layout
+from .definitions import installed_definition
 
 
 class PackedMessage:
@@ -32,71 +26,72 @@ class PackedMessage:
     """
 
     def __init__(self, message, fields):
-        places = {"sec": ("<i4", _STAMP), "nanosec": ("<u4", _STAMP + 4)}
-        for name, count in fields.items():
-            places[name] = (f"({count},)<f8", _place(message, name))
         self._bytes = bytearray(serialize_message(message))
-        # the serialiser leaves what lies between the frame's name and the numbers as it finds it; equal runs need
-        # equal bytes
-        end = _NAME + len(message.header.frame_id) + 1
-        gap = (_STAMP - end) % 8
-        self._bytes[end : end + gap] = bytes(gap)
-        formats, offsets = zip(*places.values(), strict=True)
-        layout = dict(names=list(places), formats=formats, offsets=offsets, itemsize=len(self._bytes))
-        self._record = np.frombuffer(self._bytes, np.dtype(layout))[0]
+        wanted = _stamp("header.stamp") | {name: (count,) for name, count in fields.items()}
+        layout = find_layout(installed_definition(type(message)), self._bytes, wanted)
+        # the serialiser leaves what lies between the fields as it finds it; equal runs need equal bytes
+        for gap in layout.padding:
+            self._bytes[gap] = bytes(gap.stop - gap.start)
+        record = np.frombuffer(self._bytes, layout.numbers)[0]
+        self._record, (self._seconds, self._nanoseconds, *_) = record, wanted
 
     def fill(self, stamp, **values):
         """Return the bytes to publish, with a stamp [ns] and the values of all changing fields."""
-        self._record["sec"], self._record["nanosec"] = divmod(stamp, NANO)
+        self._record[self._seconds], self._record[self._nanoseconds] = divmod(stamp, NANO)
         for name, value in values.items():
             self._record[name] = np.ravel(value)
         return bytes(self._bytes)
 
 
-class MessageReader:
-    """Reads some fields of serialised messages of one type, which has a header and no other field of variable size.
+class MessageReader(Checker):
+    """Reads a time and some fields of serialised messages of one type.
+
+    It is quick for messages that are called alike, so have one for each topic.
 
     Parameters
     ----------
     message_type : type
         Of the ROS messages.
+    stamp : str
+        Name of the time, as "header.stamp".
     fields : dict
-        How each field is packed (`struct`'s format), by name, in the order of the message: "3d" is a vector or an
-        array of three floats, "iI" a time or that of the header.
+        How many numbers each field has, by name, in the order of the message and behind the time.
     """
 
-    def __init__(self, message_type, fields):
-        self._type, self._fields = message_type, fields
-        self._numbers = cache(self._layout)
+    def __init__(self, message_type, stamp, fields):
+        super().__init__(installed_definition(message_type))
+        self._wanted = _stamp(stamp) | {name: (count,) for name, count in fields.items()}
 
     def read(self, data):
-        """Return the numbers of all fields, one after the other, as a tuple."""
-        order = "<" if data[1] & 1 else ">"
+        """Return the time [ns], and the numbers of all fields, one after the other, as a list.
+
+        Raises
+        ------
+        LayoutError
+            The bytes are no message of that type, or the time is none.
+        """
         # whoever sends may call the frame as he likes, which shifts everything behind the name
-        return self._numbers(order, data[_NAME - 4 : _NAME]).unpack_from(data)
+        self.check(data)
+        seconds, nanoseconds, *numbers = self._numbers_of(data)
+        if seconds < 0 or nanoseconds >= NANO:
+            raise LayoutError(f"time is {seconds} s and {nanoseconds} ns, accepted is 0 s on and less than {NANO} ns")
+        return seconds * NANO + nanoseconds, numbers
 
-    def _layout(self, order, length):
-        message = self._type()
-        message.header.frame_id = "_" * (int.from_bytes(length, "little" if order == "<" else "big") - 1)
-        layout, end = order, 0
-        for name, numbers in self._fields.items():
-            place = _place(message, name)
-            layout += f"{place - end}x{numbers}"
-            end = place + Struct(order + numbers).size
-        return Struct(layout)
+    def _fit(self, message):
+        numbers = find_layout(self._kind, message, self._wanted).numbers
+        super()._fit(message)
+        self._numbers_of = _packing(byte_order(message), numbers).unpack_from
 
 
-def _place(message, name):
-    """Where in the serialised message the first number of a field stands (of a header: of its stamp)."""
-    marked, mark = deepcopy(message), Struct("<d").pack(_MARK)
-    field = getattr(marked, name)
-    field = getattr(field, "stamp", field)
-    if hasattr(field, "sec"):
-        field.sec, mark = _MARKED_SECOND, Struct("<i").pack(_MARKED_SECOND)
-    elif hasattr(field, "x"):
-        field.x = _MARK
-    elif hasattr(field[0], "x"):
-        field[0].x = _MARK
-    else:
-        field[0] = _MARK
-    return serialize_message(marked).index(mark)
+def _stamp(name):
+    return {f"{name}.sec": (), f"{name}.nanosec": ()}
+
+
+def _packing(order, record):
+    """Return the `Struct` that reads what a structured dtype of numbers reads."""
+    packing, end = order, 0
+    for name in record.names:
+        field, place = record.fields[name]
+        packing += f"{place - end}x{field.itemsize // field.base.itemsize}{field.base.char}"
+        end = place + field.itemsize
+    return Struct(packing)

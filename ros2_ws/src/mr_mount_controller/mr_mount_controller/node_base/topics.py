@@ -1,4 +1,6 @@
-"""Names of topics and frames, in one place. Relative names can be remapped and put into a namespace."""
+"""Topics, their types and frames, in one place. Relative names can be remapped and put into a namespace."""
+
+from typing import NamedTuple
 
 CHASSIS_IMU = "chassis/imu"
 POWERTRAIN_IMU = "powertrain/imu"
@@ -7,12 +9,96 @@ MOUNT_STATE = "mount_state"
 ODOMETRY = "odometry"
 ROAD_PROFILE = "road_profile"
 VEHICLE_DESCRIPTION = "vehicle_description"
-RECORDED = "recorder/recorded"  # time up to which the recorder has written every sample
-RECORDED_ANSWERS = "recorder/recorded_answers"  # likewise every answer
+RECORDED = "recorder/recorded"
+RECORDED_ANSWERS = "recorder/recorded_answers"
 CLOCK = "/clock"
 DIAGNOSTICS = "/diagnostics"
+
+IMU_TYPE = "sensor_msgs/msg/Imu"
+COIL_CURRENT_TYPE = "trackvib_msgs/msg/CoilCurrent"
+MOUNT_STATE_TYPE = "trackvib_msgs/msg/MountState"
+ODOMETRY_TYPE = "nav_msgs/msg/Odometry"
+ROAD_PROFILE_TYPE = "trackvib_msgs/msg/RoadProfile"
+VEHICLE_DESCRIPTION_TYPE = "std_msgs/msg/String"
+CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
+DIAGNOSTICS_TYPE = "diagnostic_msgs/msg/DiagnosticArray"
+RECORDED_TYPE = "builtin_interfaces/msg/Time"
 
 CHASSIS_FRAME = "chassis_imu_link"
 POWERTRAIN_FRAME = "powertrain_imu_link"
 HULL_FRAME = "base_link"
 ROAD_FRAME = "odom"
+
+
+class Topic(NamedTuple):
+    """What travels on a topic, for people; `docs/nodes.md` is made from it."""
+
+    name: str
+    type: str
+    publisher: str  # node
+    rate: str  # in simulated time, at the default rates
+    meaning: str
+
+
+TOPICS = (
+    Topic(
+        CHASSIS_IMU,
+        IMU_TYPE,
+        "simulator",
+        "1 kHz",
+        "Lower (hull) end of the mounts: specific force and angular velocity, mean over the period, body axes.",
+    ),
+    Topic(
+        POWERTRAIN_IMU,
+        IMU_TYPE,
+        "simulator",
+        "1 kHz",
+        "Upper (powertrain) end of the mounts, likewise.",
+    ),
+    Topic(
+        COIL_CURRENT,
+        COIL_CURRENT_TYPE,
+        "controller",
+        "1 kHz",
+        "The answer: demanded current of both coils, and the stamp of the sample that it answers.",
+    ),
+    Topic(
+        MOUNT_STATE,
+        MOUNT_STATE_TYPE,
+        "simulator",
+        "1 kHz",
+        "Current, stiffness, damping, deflection, velocity, force and dissipated power of both mounts.",
+    ),
+    Topic(ODOMETRY, ODOMETRY_TYPE, "simulator", "100 Hz", "Pose and velocity of the hull."),
+    Topic(
+        ROAD_PROFILE,
+        ROAD_PROFILE_TYPE,
+        "road_excitation",
+        "on demand",
+        "Patches of road, left and right.",
+    ),
+    Topic(VEHICLE_DESCRIPTION, VEHICLE_DESCRIPTION_TYPE, "simulator", "once", "The vehicle file in use."),
+    Topic(
+        RECORDED,
+        RECORDED_TYPE,
+        "recorder",
+        "as it writes",
+        "Time up to which the bag holds every sample: of several topics, the slowest.",
+    ),
+    Topic(
+        RECORDED_ANSWERS,
+        RECORDED_TYPE,
+        "recorder",
+        "as it writes",
+        "Time of the latest sample whose answer the bag holds.",
+    ),
+    Topic(CLOCK, CLOCK_TYPE, "simulator", "100 Hz", "Simulated time."),
+    Topic(
+        DIAGNOSTICS,
+        DIAGNOSTICS_TYPE,
+        "simulator",
+        "10 Hz",
+        "State and epoch, currents in force, pace, late and rejected answers, saturation, where the time of a period "
+        "and the work on the mounts goes.",
+    ),
+)

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import numpy as np
-from trackvib_sim.analysis.bag_analysis import analyse
+from trackvib_sim.analysis.analyse import analyse
 from trackvib_sim.analysis.report.report_data import build_report_data
 
 from .made_recordings import made_recording

@@ -27,7 +27,7 @@ def made_recording(milliseconds, chassis=None, powertrain=None, speed=10.0):
         answers=Answers(stamp, 2.0 * pair),
         odometry=Odometry(slow, np.zeros((len(slow), 3)), np.full(len(slow), speed)),
         road=[],
-        told=LoopCounts(*np.zeros((3, 0), np.int64)),
+        loop_counts=LoopCounts(*np.zeros((3, 0), np.int64)),
         diagnostics={"late": "0"},
         provenance={
             "parameters of /ns/simulator": {"speed": str(speed), "engine_speed": "1650.0"},

@@ -1,10 +1,10 @@
-"""Levels of long stretches: sines of known level, and blocks that do not show."""
+"""Levels of long segments: sines of known level, and blocks that do not show."""
 
 import numpy as np
 import pytest
 from trackvib_sim.analysis import levels
 from trackvib_sim.analysis.iso2631 import weighted
-from trackvib_sim.analysis.levels import Levels, bins
+from trackvib_sim.analysis.levels import Levels, build_bins
 from trackvib_sim.analysis.vibration import band_limited, rms
 
 RATE = 1000.0
@@ -12,9 +12,9 @@ MS = 1_000_000  # ns
 
 
 def levels_of(acceleration, measured, rate=RATE):
-    """Return numbers of x, y, z and history of one stretch from the start on."""
+    """Return numbers of x, y, z and history of one segment from the start on."""
     stamp = np.arange(1, len(acceleration) + 1) * round(1e9 / rate)
-    found = Levels(rate, bins(0, int(stamp[-1])))
+    found = Levels(rate, build_bins(0, int(stamp[-1])))
     for _ in found.add(stamp, acceleration, measured):
         pass
     return found.numbers(), found.history()
@@ -55,7 +55,7 @@ def test_running_rms_finds_the_burst():
 
 @pytest.mark.property
 def test_blocks_do_not_show(monkeypatch):
-    """A stretch is cut into blocks, yet its numbers are those of filters that run through in one go."""
+    """A segment is cut into blocks, yet its numbers are those of filters that run through in one go."""
     random = np.random.default_rng(5)
     acceleration = np.cumsum(random.normal(scale=0.02, size=(95_500, 3)), axis=0) + random.normal(size=(95_500, 3))
     measured = 3000
@@ -86,8 +86,8 @@ def test_a_low_rate_has_no_weighted_values():
 @pytest.mark.property
 def test_bins_of_a_long_bag_stay_few():
     """Seconds of a short bag; of one of 10 h no more than of an hour. Each sample lies in one."""
-    assert bins(0, 10_000 * MS)[1:] == (1000 * MS, 10)
-    long = bins(5, 5 + 36_000_000 * MS)
+    assert build_bins(0, 10_000 * MS)[1:] == (1000 * MS, 10)
+    long = build_bins(5, 5 + 36_000_000 * MS)
     assert long.count <= levels.BINS and long.width * long.count >= 36_000_000 * MS
     stamp = 5 + np.arange(1, 36_001) * 1000 * MS
     count, sums = long.sums(stamp, np.ones((36_000, 2)))

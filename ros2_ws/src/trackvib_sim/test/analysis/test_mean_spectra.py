@@ -4,14 +4,15 @@ import numpy as np
 import pytest
 from scipy import signal
 from trackvib_sim.analysis import mean_spectra
-from trackvib_sim.analysis.mean_spectra import MeanSpectra, known_lines
+from trackvib_sim.analysis.lines import known_lines
+from trackvib_sim.analysis.mean_spectra import MeanSpectra
 from trackvib_sim.analysis.vibration import psd
 
 RATE = 1000.0
 
 
 def spectra_of(chassis, powertrain):
-    """Return the spectra of one stretch."""
+    """Return the spectra of one segment."""
     found = MeanSpectra(RATE)
     found.add(chassis, powertrain)
     return found.spectra()

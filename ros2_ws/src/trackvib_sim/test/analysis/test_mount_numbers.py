@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 from trackvib_sim.analysis import mount_numbers as module
-from trackvib_sim.analysis.levels import bins
-from trackvib_sim.analysis.mount_numbers import bin_means, currents, moments, mount_numbers
+from trackvib_sim.analysis.history import bin_means
+from trackvib_sim.analysis.levels import build_bins
+from trackvib_sim.analysis.mount_numbers import currents, moments, mount_numbers
 from trackvib_sim.bags.recording import Mounts
 
 MS = 1_000_000  # ns
@@ -60,7 +61,7 @@ def test_means_in_bins(monkeypatch):
     monkeypatch.setattr(module, "BLOCK", 333)
     values = np.random.default_rng(2).normal(size=(10_000, 2))
     kept = np.delete(np.arange(10_000), np.s_[4000:5000])
-    mean, deviation = bin_means(bins(0, int(STAMP[-1])), STAMP[kept], values[kept])
+    mean, deviation = bin_means(build_bins(0, int(STAMP[-1])), STAMP[kept], values[kept])
     seconds = values.reshape(10, 1000, 2)
     there = np.delete(np.arange(10), 4)
     np.testing.assert_allclose(mean[there], seconds.mean(axis=1)[there], atol=1e-12)

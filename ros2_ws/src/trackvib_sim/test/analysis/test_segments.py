@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from trackvib_sim.analysis.numbers import Gap
-from trackvib_sim.analysis.segments import common_segments, timing
+from trackvib_sim.analysis.segments import common_segments
+from trackvib_sim.analysis.stamps import timing
 
 MS = 1_000_000  # ns
 
@@ -16,7 +17,7 @@ def stamps(*ranges):
 
 
 def common_of(chassis, powertrain, settle=2.0):
-    """Return the stretches of two sensors as (first stamp [ms], size, first that counts [ms])."""
+    """Return the segments of two sensors as (first stamp [ms], size, first that counts [ms])."""
     breaks = [timing(stamp, 0)[1] for stamp in (chassis, powertrain)]
     found = common_segments((chassis, powertrain), breaks, 1.0 * MS, 0, settle, 2.0, 1.0)
     for a, b, size, _ in found:
@@ -26,7 +27,7 @@ def common_of(chassis, powertrain, settle=2.0):
 
 
 @pytest.mark.property
-def test_sound_stamps_are_one_stretch():
+def test_sound_stamps_are_one_segment():
     """From one period after the start; the first that counts is beyond the settling time."""
     sound = stamps((1, 10_001))
     found, breaks = timing(sound, 0)
@@ -38,7 +39,7 @@ def test_sound_stamps_are_one_stretch():
 
 @pytest.mark.property
 def test_gaps_repeated_and_backward_stamps_are_found():
-    """Each with its place, length and what is missing; all of them end a stretch."""
+    """Each with its place, length and what is missing; all of them end a segment."""
     stamp = stamps((1, 5001), (5011, 9001), (9000, 13_001), (12_500, 17_001))
     found, _ = timing(stamp, 0)
     assert not found.sound
@@ -55,7 +56,7 @@ def test_gaps_repeated_and_backward_stamps_are_found():
 )
 @settings(max_examples=40)
 def test_stretches_are_what_both_sensors_have(lost, first):
-    """Every stretch holds the same instants of both, none is too short, and no long enough one is missed."""
+    """Every segment holds the same instants of both, none is too short, and no long enough one is missed."""
     chassis, powertrain = (
         np.setdiff1d(np.arange(begin, 30_001), list(gone)) * MS for begin, gone in zip(first, lost, strict=True)
     )

@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+from trackvib_sim.analysis.loop_health import mount_energy
 from trackvib_sim.analysis.settling import settling_time
-from trackvib_sim.analysis.summary import losses, mount_energy
+from trackvib_sim.analysis.stamps import losses
 from trackvib_sim.bags.recording import Answers, Inertial
 
 from .made_recordings import made_recording

@@ -1,7 +1,7 @@
 """What the tests of bags share: a small bag with real messages."""
 
 import pytest
-from mr_mount_controller.node_base.packed_message import NANO
+from mr_mount_controller.node_base.cdr import NANO
 from mr_mount_controller.node_base.qos import LOOP_WRITER_QOS
 from trackvib_sim.bags.qos import qos_record
 from trackvib_sim.bags.writing import BagWriter

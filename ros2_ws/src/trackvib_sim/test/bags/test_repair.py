@@ -163,7 +163,8 @@ def test_chunk_with_a_wrong_checksum_is_left_out(sound, copy, number):
     data[index.chunk_start_offset + index.chunk_length - 100] ^= 1
     (copy / NAME).write_bytes(data)
     done = repair(copy)
-    assert done.files[0].damaged_chunks == 1
+    (damage,) = done.files[0].damage
+    assert "checksum is wrong" in damage.reason or "cannot be read" in damage.reason
     found = read(copy)
     assert 0.7 * MESSAGES < len(found) < MESSAGES and [each for each in sound.messages if each in found] == found
 

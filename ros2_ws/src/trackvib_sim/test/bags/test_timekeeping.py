@@ -82,3 +82,29 @@ def test_message_without_stamp_has_that_of_the_latest():
     times.add("/chassis/imu", IMU, True, stamped(3 * MS))
     assert times.add("/text", "std_msgs/msg/String", False, b"") == 3 * MS
     assert times.add("/answer", ANSWER, True, stamped(0)) == 3 * MS
+
+
+HOUR = 3600 * 10**9
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("type_name", [IMU, CLOCK, ANSWER])
+@pytest.mark.parametrize("stamp", [-1, -(2**31) * 10**9, 8 * MS + HOUR, 2**31 * 10**9 - 1])
+def test_one_absurd_stamp_changes_nothing(type_name, stamp):
+    """It is recorded at the latest good time; before it and after it the times are those of the stamps."""
+    times = Timekeeping()
+    assert times.add("/topic", IMU, True, stamped(7 * MS)) == 7 * MS
+    assert times.add("/other", type_name, True, stamped(stamp)) == 7 * MS
+    assert times.add("/topic", IMU, True, stamped(8 * MS)) == 8 * MS
+    assert times.add("/other", type_name, True, stamped(8 * MS)) == 8 * MS
+    assert times.complete_until == 8 * MS
+
+
+@pytest.mark.property
+def test_a_jump_that_goes_on_is_believed():
+    """Time of another clock, or of a bag with a long gap, from its second message on."""
+    times = Timekeeping()
+    times.add("/topic", IMU, True, stamped(7 * MS))
+    later = 5 * HOUR
+    stamps = [times.add("/topic", IMU, True, stamped(later + k * MS)) for k in range(3)]
+    assert stamps == [7 * MS, later + MS, later + 2 * MS]

@@ -90,11 +90,11 @@ def test_road_far_behind_is_forgotten():
     [
         (0.0, 0.05, [0.0], [0.0], ("left has 1 samples and right 1", "at least 2")),
         (0.0, 0.05, [0.0, 1.0, 2.0], [0.0, 1.0], ("left has 3 samples and right 2", "as many")),
-        (0.0, 0.0, [0.0, 1.0], [0.0, 1.0], ("spacing is 0.0 m", "> 0")),
-        (0.0, -0.1, [0.0, 1.0], [0.0, 1.0], ("spacing is -0.1 m", "> 0")),
-        (0.0, float("nan"), [0.0, 1.0], [0.0, 1.0], ("spacing is nan m", "finite")),
-        (0.0, float("inf"), [0.0, 1.0], [0.0, 1.0], ("spacing is inf m", "finite")),
-        (0.0, 0.1, [0.0, 1.0], [0.0, 1.0], ("spacing is 0.1 m", "0.05 m as in the patches before")),
+        (0.0, 0.0, [0.0, 1.0], [0.0, 1.0], ("spacing is 0.0 m", "0.001 to 100.0 m")),
+        (0.0, -0.1, [0.0, 1.0], [0.0, 1.0], ("spacing is -0.1 m", "0.001 to 100.0 m")),
+        (0.0, float("nan"), [0.0, 1.0], [0.0, 1.0], ("spacing is nan m", "0.001 to 100.0 m")),
+        (0.0, float("inf"), [0.0, 1.0], [0.0, 1.0], ("spacing is inf m", "0.001 to 100.0 m")),
+        (0.0, 0.1, [0.0, 1.0], [0.0, 1.0], ("spacing is 0.1 m", "0.05 m as of the road before")),
         (0.0, 0.05, [0.0, float("nan")], [0.0, 1.0], ("not finite",)),
         (0.0, 0.05, [0.0, 1.0], [0.0, float("inf")], ("not finite",)),
         (0.02, 0.05, [0.0, 1.0], [0.0, 1.0], ("start is 0.02 m", "multiple of the spacing 0.05 m")),
@@ -122,3 +122,30 @@ def test_refused_first_patch_does_not_fix_the_spacing():
         store.add(0.0, 0.1, [0.0, np.nan], [0.0, 0.0])
     put(store, 0, 10)
     assert store.around(0.0, 0.2) is not None
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("count", [2, 2000])
+def test_a_patch_of_another_spacing_does_not_fix_it(count):
+    """Whichever comes first, the road is the one that reaches the vehicle; from then on it is the only one."""
+    for others_first in (True, False):
+        store = RoadStore()
+        for other in (others_first, not others_first):
+            if other:
+                store.add(-20.0, 0.01, np.zeros(count), np.zeros(count))
+            else:
+                put(store, -1000, 2000)
+        assert store.around(0.5, 5.0).spacing == SPACING
+        with pytest.raises(ValueError, match="spacing is 0.01 m, must be 0.05 m as of the road before"):
+            store.add(-20.0, 0.01, np.zeros(count), np.zeros(count))
+
+
+@pytest.mark.property
+def test_a_flood_of_patches_is_bounded():
+    """Road far ahead, which nobody will forget, is taken up to a limit; what is driven on stays."""
+    store, many = RoadStore(), np.zeros(5_000_000)
+    put(store, -1000, 2000)
+    with pytest.raises(ValueError, match="samples are held already, 5000000 more are beyond 20000000"):
+        for k in range(1, 5):
+            store.add(k * 1e6, SPACING, many, many)
+    assert store.around(-1.0, 5.0).height.shape[1] == 2000

@@ -1,4 +1,4 @@
-"""Runs in compiled stretches: what the closed loop measures under the passive law, to the last bit."""
+"""Runs in compiled segments: what the closed loop measures under the passive law, to the last bit."""
 
 from dataclasses import dataclass
 
@@ -12,7 +12,7 @@ from trackvib_sim.simulation.simulation import Probe, RunFailed
 
 pytestmark = pytest.mark.property
 
-PERIODS = 250  # not a multiple of a stretch
+PERIODS = 250  # not a multiple of a segment
 
 
 @pytest.fixture(scope="module")
@@ -29,7 +29,7 @@ def rolling(simulation):
 
 @pytest.fixture(scope="module")
 def record(rolling, rough):
-    """A run in compiled stretches."""
+    """A run in compiled segments."""
     return run_open_loop(rolling(), rough, PERIODS)
 
 

@@ -18,7 +18,7 @@ PERIODS = 60
 NO_WORD = np.zeros((0, 3), dtype=np.int64)  # stamp, silent periods, answers
 
 
-def recorded(simulation, currents, answers, told=NO_WORD):
+def recorded(simulation, currents, answers, loop_counts=NO_WORD):
     """Drive with currents (k, 2) in force, and return what a bag with these answers (number of sample, A) tells."""
     lay_road(simulation)
     seen = []
@@ -33,7 +33,7 @@ def recorded(simulation, currents, answers, told=NO_WORD):
             np.array([current for _, current in answers]).reshape(-1, 2),
         ),
         mounts=SimpleNamespace(stamp=stamps, current=np.array(seen)),
-        told=LoopCounts(*told.T),
+        loop_counts=LoopCounts(*loop_counts.T),
     )
 
 
@@ -92,8 +92,8 @@ def test_late_answers_do_not_act(simulation, drawn, on_silence, instead):
     one, answers = simulation(5.0), [(number, drawn[number]) for number in range(1, PERIODS)]
     acted = drawn.copy()
     acted[20:40] = drawn[19] if instead is None else instead
-    told = np.array([[10 * PERIOD, 0, 9], [20 * PERIOD, 1, 19], [50 * PERIOD, 20, 50]])
-    found = in_force(one, recorded(one, acted, answers, told), on_silence)
+    loop_counts = np.array([[10 * PERIOD, 0, 9], [20 * PERIOD, 1, 19], [50 * PERIOD, 20, 50]])
+    found = in_force(one, recorded(one, acted, answers, loop_counts), on_silence)
     np.testing.assert_array_equal(found, acted)
 
 
@@ -105,12 +105,12 @@ def test_answers_that_are_no_currents_never_act(simulation, drawn):
 
 
 @pytest.mark.parametrize(
-    "told", [NO_WORD, np.array([[20 * PERIOD, 0, 19], [40 * PERIOD, 0, 39]]), np.array([[40 * PERIOD, 1, 40]])]
+    "loop_counts", [NO_WORD, np.array([[20 * PERIOD, 0, 19], [40 * PERIOD, 0, 39]]), np.array([[40 * PERIOD, 1, 40]])]
 )
-def test_a_missing_answer_is_named(simulation, drawn, told):
+def test_a_missing_answer_is_named(simulation, drawn, loop_counts):
     """Where no silence was told, or more answers than are recorded, the current is unknown from there on."""
     one, answers = simulation(5.0), [(number, drawn[number]) for number in range(1, PERIODS) if number != 30]
-    currents = driven(one, recorded(one, drawn, answers, told))
+    currents = driven(one, recorded(one, drawn, answers, loop_counts))
     for k in range(30):
         np.testing.assert_array_equal(next(currents), drawn[k])
     with pytest.raises(NotTold, match=r"sample at t = 0.030 s"):

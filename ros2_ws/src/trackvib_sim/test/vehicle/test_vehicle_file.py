@@ -37,7 +37,7 @@ def test_shipped_file_loads(content):
     ("text", "words"),
     [
         ("a: &x [1, 2]\nb: *x", "my.yaml: not a YAML file: alias *x is not accepted, write it out"),
-        ("[" * 3000, "my.yaml: not a vehicle file: nested too deeply"),
+        ("[" * 3000, "my.yaml: not a YAML file: nested too deeply, accepted are 50 levels"),
     ],
 )
 def test_texts_that_would_blow_up_are_refused(text, words):

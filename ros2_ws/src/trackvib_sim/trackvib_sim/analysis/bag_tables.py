@@ -9,8 +9,7 @@ import pyarrow as pa
 from pyarrow import csv, parquet
 
 from . import numbers
-from .numbers import SIDES
-from .summary import AXES, SENSORS
+from .numbers import AXES, SENSORS, SIDES
 
 COLUMNS = ("bag", "part", "axis", "quantity", "value", "unit")
 # of the fields of each kind of record

@@ -3,8 +3,7 @@
 import numpy as np
 
 from ..numerics.units import NANO
-from ..road.store import RoadStore
-from .segments import period_of
+from .stamps import period_of
 
 _ENDS = ("finished", "stopped")  # states in which a simulator speaks its last word
 _HEARD = ("accepted", "late", "duplicate", "early", "not_finite")  # one for each answer that came to the simulator
@@ -49,11 +48,12 @@ def _answers(answers, stamps, told):
 def _road(recording):
     if recording.odometry is None:
         return ""
-    store = RoadStore()
-    for patch in recording.road:
-        store.add(*patch)
-    begin, end = recording.odometry.position[[0, -1], 0]
-    return "" if store.around(begin, end) else f"road_profile somewhere from {begin:.1f} to {end:.1f} m"
+    reached, end = recording.odometry.position[[0, -1], 0]
+    for start, spacing, left, _ in sorted(recording.road, key=lambda patch: patch[0]):
+        if start > reached + 0.5 * spacing:
+            break
+        reached = max(reached, start + len(left) * spacing)
+    return f"road_profile from {reached:.1f} m on" if reached < end else ""
 
 
 def _first(absent):

@@ -11,7 +11,7 @@ import numpy as np
 from ..numerics.units import NANO
 from .iso2631 import LEAST_RATE, weighted
 from .numbers import AxisNumbers
-from .segments import blocks
+from .stamps import blocks
 from .vibration import band_limited
 
 BLOCK = 120.0  # s
@@ -43,7 +43,7 @@ class Bins(NamedTuple):
         return np.bincount(index, minlength=self.count), np.stack(columns, axis=1)
 
 
-def bins(begin, last):
+def build_bins(begin, last):
     """Return the `Bins` of the time [ns] from `begin` to `last`: seconds, or longer ones of a long bag."""
     length = max(last - begin, 1)
     width = -(-length // (BINS * NANO)) * NANO
@@ -53,15 +53,15 @@ def bins(begin, last):
 class Levels:
     """What has been summed up of one sensor."""
 
-    def __init__(self, rate, parts):
-        self._rate, self._bins = rate, parts
+    def __init__(self, rate, bins):
+        self._rate, self._bins = rate, bins
         self._count = 0
         self._origin = None
         self._raw, self._raw_squared, self._limited = np.zeros((3, 3))
         self._squared, self._fourth = np.zeros((2, 3))
         self._peak, self._weighted_peak, self._running = np.zeros((3, 3))
-        self._in_bin = np.zeros(parts.count)
-        self._history, self._weighted_history = np.zeros((2, parts.count, 3))
+        self._in_bin = np.zeros(bins.count)
+        self._history, self._weighted_history = np.zeros((2, bins.count, 3))
 
     def add(self, stamp, acceleration, measured):
         """Add a segment, and say after each block how much of it is done.

@@ -1,17 +1,14 @@
-"""Mean spectra of both sensors over segments of any length, in blocks as in `levels`, and levels about known lines."""
+"""Mean spectra of both sensors over segments of any length, in blocks as in `levels`."""
 
 import numpy as np
 from scipy import signal
 
-from .numbers import Line, Spectra
-from .segments import blocks
-from .summary import AXES, SENSORS
+from .numbers import Spectra
+from .stamps import blocks
 from .vibration import psd
 
 BLOCK = 120.0  # s
 WINDOW = 1.0  # s: a resolution of 1 Hz
-HALF_WIDTH = 2.0  # Hz, to either side of a line: what a Hann window spreads a sine over, rounded up
-HARMONICS = 3  # of link passing
 
 
 class MeanSpectra:
@@ -47,41 +44,3 @@ class MeanSpectra:
                 np.abs(self._cross) ** 2 / (self._chassis * self._powertrain),
                 np.abs(self._cross) / self._chassis,
             )
-
-
-def known_lines(spectra, speed, speed_deviation, pitch, engine_speed, orders):
-    """Return the `Line`s of links entering the sprockets and of the engine that lie within the spectra.
-
-    Parameters
-    ----------
-    spectra : Spectra
-    speed, speed_deviation : float
-        Of the hull, m/s. The band about a line of link passing is wider by two deviations.
-    pitch : float
-        Of the tracks, m.
-    engine_speed : float
-        r/min
-    orders : sequence of float
-        Of the engine, cycles a revolution.
-    """
-    passing, turning = speed / pitch, engine_speed / 60.0
-    wanted = [
-        (f"link passing {n}", n * passing, HALF_WIDTH + 2.0 * n * speed_deviation / pitch)
-        for n in range(1, HARMONICS + 1)
-    ]
-    wanted += [(f"engine order {order:g}", order * turning, HALF_WIDTH) for order in orders]
-    highest = spectra.frequency[-1]
-    return tuple(
-        Line(name, frequency, max(frequency - half, 0.0), frequency + half, _in_band(spectra, frequency, half))
-        for name, frequency, half in wanted
-        if HALF_WIDTH < frequency <= highest - HALF_WIDTH  # false for nan
-    )
-
-
-def _in_band(spectra, frequency, half):
-    inside = np.abs(spectra.frequency - frequency) <= half
-    resolution = spectra.frequency[1]
-    return {
-        sensor: dict(zip(AXES, np.sqrt(spectra.psd[sensor][inside].sum(axis=0) * resolution).tolist(), strict=True))
-        for sensor in SENSORS
-    }

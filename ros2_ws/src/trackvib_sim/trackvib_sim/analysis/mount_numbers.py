@@ -5,9 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..numerics.units import NANO
-from .numbers import SIDES, Current, MountAxis, MountNumbers
-from .segments import BLOCK, TOLERANCE, blocks, period_of
-from .summary import AXES
+from .numbers import AXES, SIDES, Current, MountAxis, MountNumbers
+from .stamps import BLOCK, TOLERANCE, blocks, period_of
 
 
 class Moments(NamedTuple):
@@ -92,18 +91,3 @@ def mount_numbers(mounts, after):
         )
         for k, side in enumerate(SIDES)
     }
-
-
-def bin_means(bins, stamp, values):
-    """Return mean and standard deviation (n, m) of columns (k, m) in each of `levels.Bins`."""
-    count = np.zeros(bins.count)
-    total, squares = np.zeros((2, bins.count, values.shape[1]))
-    for block in blocks(len(stamp), BLOCK):
-        within = np.array(values[block])
-        in_bin, sums = bins.sums(stamp[block], np.hstack((within, np.square(within))))
-        count += in_bin
-        total += sums[:, : within.shape[1]]
-        squares += sums[:, within.shape[1] :]
-    count = np.where(count > 0, count, np.nan)[:, None]
-    mean = total / count
-    return mean, np.sqrt(np.maximum(squares / count - mean**2, 0.0))

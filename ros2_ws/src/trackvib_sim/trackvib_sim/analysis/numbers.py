@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+AXES = ("x", "y", "z")
+SENSORS = ("chassis", "powertrain")
 SIDES = ("left", "right")
 
 

@@ -7,7 +7,7 @@ matplotlib.use("Agg")  # files only: no display is needed
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
-from .summary import AXES, SENSORS  # noqa: E402
+from .numbers import AXES, SENSORS  # noqa: E402
 from .vibration import psd  # noqa: E402
 
 COLOURS = {"chassis": "#3b6ea5", "powertrain": "#d1662b"}

@@ -7,10 +7,14 @@ matplotlib.use("Agg")  # files only: no display is needed
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
-from .numbers import SIDES  # noqa: E402
+from .numbers import (
+    SENSORS,  # noqa: E402
+    SIDES,  # noqa: E402
+)
 from .plots import LOWEST_FREQUENCY, NAMES  # noqa: E402
-from .summary import SENSORS  # noqa: E402
 from .vibration import psd  # noqa: E402
+
+plt.rcParams["text.parse_math"] = False  # names of bags and laws come from outside
 
 COLOURS = ("#6b7785", "#c2410c")  # recorded, replayed
 SIDE_COLOURS = ("#1d5fa8", "#c98a00")

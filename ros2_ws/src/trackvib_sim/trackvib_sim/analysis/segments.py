@@ -1,16 +1,29 @@
-"""Segments without a gap, found from stamps alone. Everything is looked at in blocks: bags may be long."""
+"""The segments of a recording that are measured: without a gap in either sensor, after the run has settled."""
 
+from math import isfinite
 from typing import NamedTuple
 
 import numpy as np
+from mr_mount_controller.node_base import topics
 
+from ..bags.provenance import parameters_with
 from ..numerics.units import NANO
-from .numbers import Gap, Timing
+from .numbers import SENSORS, Timing
+from .settling import SHORTEST_SETTLING, settling_time
+from .stamps import start_of, timing
 
-MOST_GAPS = 1000  # that are listed
-TOLERANCE = 0.5  # of a period, by which a step may differ from it
-LOOKED_AT = 100_000  # steps from which the median is taken
-BLOCK = 1_000_000  # samples
+SHORTEST_MEASURING = 1.0  # s
+TOPICS = dict(  # by part of a recording
+    chassis=topics.CHASSIS_IMU,
+    powertrain=topics.POWERTRAIN_IMU,
+    mounts=topics.MOUNT_STATE,
+    answers=topics.COIL_CURRENT,
+    odometry=topics.ODOMETRY,
+)
+
+
+class TooShort(ValueError):
+    """A run too short for vibration measures."""
 
 
 class Segment(NamedTuple):
@@ -22,59 +35,79 @@ class Segment(NamedTuple):
     measured: int  # how many of them are passed before the rest counts
 
 
-def blocks(size, length):
-    """Iterate over slices of at most `length` that make up a range of `size`."""
-    return (slice(begin, min(begin + length, size)) for begin in range(0, size, length))
+class Segments(NamedTuple):
+    """What of a recording is measured, and the time base of all its numbers."""
+
+    begin: int  # start of the bag, ns
+    last: int  # last stamp of both sensors, ns
+    settle: float  # s from the start that do not count
+    rate: float  # of the sensors, Hz
+    segments: list  # of `Segment`
+    timing: dict  # end of topic -> `Timing`
+
+    @property
+    def settled(self):
+        """Stamp [ns] after which samples count."""
+        return self.begin + round(self.settle * NANO)
+
+    @property
+    def measured(self):
+        """Time that counts [s]."""
+        return sum(segment.size - segment.measured for segment in self.segments) / self.rate
 
 
-def period_of(stamp):
-    """Return the median step [ns] of stamps (k,), of many of them from a sample; nan of fewer than two."""
-    if len(stamp) < 2:
-        return float("nan")
-    looked_at = np.linspace(0, len(stamp) - 2, min(len(stamp) - 1, LOOKED_AT)).astype(np.int64)
-    return float(np.median(stamp[looked_at + 1] - stamp[looked_at]))
+def find_segments(recording, settle=None):
+    """Return the `Segments` of a `bags.recording.Recording`.
 
+    `settle` is the time from the start that does not count, `SHORTEST_SETTLING` or more [s]; by default `settling_of`.
 
-def timing(stamp, begin):
-    """Return the `Timing` of stamps (k,) [ns] and where they break.
-
-    Parameters
-    ----------
-    stamp : (k,) int
-    begin : int
-        Start of the bag, ns.
-
-    Returns
-    -------
-    Timing
-    breaks : (b,) int
-        Index of the first sample after each step that is not one period long.
+    Raises
+    ------
+    TooShort
+        No segment without gaps leaves a second to be measured.
+    ValueError
+        The settling time is too short, the sensors differ in their rates, or their stamps cannot be a time base.
     """
-    period = period_of(stamp)
-    found = [np.empty(0, np.int64)]
-    for block in blocks(len(stamp) - 1, BLOCK):
-        step = np.diff(stamp[block.start : block.stop + 1])
-        # the comparison is false for a period of nan or zero
-        found.append(block.start + 1 + np.flatnonzero(~(np.abs(step - period) < TOLERANCE * period)))
-    breaks = np.concatenate(found)
-    step = stamp[breaks] - stamp[breaks - 1]
-    gap = step > period
-    missing = np.round(step[gap] / period).astype(np.int64) - 1
-    listed = [
-        Gap(float(stamp[after - 1] - begin) / NANO, float(length) / NANO, int(count))
-        for after, length, count in zip(breaks[gap][:MOST_GAPS], step[gap], missing, strict=False)
-    ]
-    return Timing(
-        samples=len(stamp),
-        period=period / NANO,
-        first=float(stamp[0] - begin) / NANO,
-        last=float(stamp[-1] - begin) / NANO,
-        missing=int(missing.sum()),
-        repeated=int(((step >= 0) & (step <= period)).sum()),
-        backward=int((step < 0).sum()),
-        gap_count=int(gap.sum()),
-        gaps=tuple(listed),
-    ), breaks
+    settle = settling_of(recording) if settle is None else settle
+    if not settle >= SHORTEST_SETTLING:  # nan is refused, too
+        raise ValueError(f"settle is {settle:g} s, must be {SHORTEST_SETTLING:g} s or more")
+    begin = start_of(recording)
+    timings = {
+        end: timing(getattr(recording, part)[0], begin)  # the first column of each is its stamps
+        for part, end in TOPICS.items()
+        if getattr(recording, part) is not None
+    }
+    period = _period(*(timings[TOPICS[sensor]][0] for sensor in SENSORS))
+    stamps = [getattr(recording, sensor).stamp for sensor in SENSORS]
+    breaks = [timings[TOPICS[sensor]][1] for sensor in SENSORS]
+    found = common_segments(stamps, breaks, period, begin, settle, SHORTEST_SETTLING, SHORTEST_MEASURING)
+    last = int(min(stamp[-1] for stamp in stamps))
+    if not found:
+        needed = f"{settle:g} s of settling and {SHORTEST_MEASURING:g} s to measure without a gap in either sensor"
+        raise TooShort(
+            f"the run is {(last - begin) / NANO:g} s long, RMS values need {settle + SHORTEST_MEASURING:g} s ({needed})"
+        )
+    return Segments(begin, last, settle, NANO / period, found, {end: each for end, (each, _) in timings.items()})
+
+
+def settling_of(recording):
+    """Return the time [s] that the recorded run settles, by the parameters of its nodes; the shortest if unknown."""
+    road, simulator = (parameters_with(recording.provenance, name)[1] for name in ("level_until", "engine_speed"))
+    try:
+        found = settling_time(float(simulator["speed"]), float(road["level_until"]) + float(road["fade"]))
+    except (KeyError, ValueError):
+        return SHORTEST_SETTLING
+    return found if isfinite(found) else SHORTEST_SETTLING
+
+
+def _period(chassis: Timing, powertrain: Timing):
+    """Return the common period of both sensors [ns]."""
+    if abs(chassis.period - powertrain.period) > 1e-3 * chassis.period:
+        raise ValueError(
+            f"chassis/imu comes every {chassis.period:g} s and powertrain/imu every {powertrain.period:g} s, "
+            "must be the same"
+        )
+    return chassis.period * NANO
 
 
 def common_segments(stamps, breaks, period, begin, settle, lead, shortest):

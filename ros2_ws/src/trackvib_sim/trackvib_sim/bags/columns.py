@@ -8,10 +8,10 @@ from tempfile import TemporaryFile
 from typing import NamedTuple
 
 import numpy as np
+from mr_mount_controller.node_base.cdr import find_layout
 
 from ..numerics.units import NANO
-from .cdr_layout import find_layout
-from .mcap_chunks import at
+from .mcap_messages import at
 
 
 class Columns(NamedTuple):
@@ -42,8 +42,8 @@ class Topic:
         self._file = TemporaryFile()  # noqa: SIM115, lives as long as the arrays
         self._layout = None
 
-    def add(self, store, data, start, size):
-        """Add messages that stand at places of some bytes."""
+    def add(self, kind, data, start, size):
+        """Add messages of a `cdr.Fields` that stand at places of some bytes."""
         rows = np.empty(len(start), self._columns.row)
         left = np.arange(len(start))
         # one turn for messages whose frame is called alike, which is nearly always all of them
@@ -52,7 +52,7 @@ class Topic:
             if not fitting.any():
                 first = start[left[0]]
                 message = data[first : first + size[left[0]]].tobytes()
-                self._layout = find_layout(store, self._columns.type_name, message, self._columns.wanted)
+                self._layout = find_layout(kind, message, self._columns.wanted)
                 continue
             self._fill(rows, left[fitting], at(data, self._layout.numbers, start[left[fitting]]))
             left = left[~fitting]

@@ -7,8 +7,9 @@ from mcap.writer import MCAP0_MAGIC
 
 from .errors import BagError
 from .files import bag_files
-from .metadata import channels, summary_of
-from .recovery import DAMAGE
+from .limits import TooLarge
+from .mcap_summary import summary_of
+from .metadata import channels
 
 
 class Contents(NamedTuple):
@@ -57,15 +58,15 @@ def contents(path):
 def _summary(file):
     try:
         summary = summary_of(file)
-    except (OSError, *DAMAGE):
-        summary = None
-    if summary is None:
-        try:
+        if summary is None:
             with file.open("rb") as stream:
                 magic = stream.read(len(MCAP0_MAGIC))
-        except OSError as error:
-            raise BagError(f"{str(file)!r} cannot be read: {error.strerror}") from None
-        if magic != MCAP0_MAGIC:
-            raise BagError(f"{str(file)!r} is no MCAP file")
-        raise BagError(f"{str(file)!r} was cut short; `trackvib bag repair` completes it")
-    return summary
+    except OSError as error:
+        raise BagError(f"{str(file)!r} cannot be read: {error.strerror}") from None
+    except TooLarge as error:
+        raise BagError(f"{str(file)!r} cannot be read: {error}") from None
+    if summary is not None:
+        return summary
+    if magic != MCAP0_MAGIC:
+        raise BagError(f"{str(file)!r} is no MCAP file")
+    raise BagError(f"{str(file)!r} was cut short or is damaged; `trackvib bag repair` completes it")

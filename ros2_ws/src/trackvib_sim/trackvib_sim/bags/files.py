@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+from mr_mount_controller.node_base.plain_text import readable
+
 from .errors import BagError
 
 
@@ -29,4 +31,4 @@ def bag_files(path):
 def called(path):
     """Return what to call a bag in a title: its name, with that of the run's folder before `bag`."""
     parts = Path(path).resolve().parts
-    return "/".join(parts[-2:]) if parts[-1] == "bag" else parts[-1]
+    return readable("/".join(parts[-2:]) if parts[-1] == "bag" else parts[-1])

@@ -4,28 +4,16 @@ from collections import Counter
 from pathlib import Path
 
 import yaml
-from mcap.reader import make_reader
 
-
-def summary_of(file):
-    """Return mcap's `Summary` of a complete file; None if it has no index.
-
-    Raises
-    ------
-    McapError, OSError
-        The file cannot be read.
-    """
-    with Path(file).open("rb") as stream:
-        summary = make_reader(stream).get_summary()
-    return summary if summary is not None and summary.statistics is not None else None
+from ..yaml_text import YamlTextError, load
+from .new_files import new_file
 
 
 def write_metadata(folder, summaries):
     """Write the `metadata.yaml` of a bag folder; `summaries` maps the names of its files to their summaries."""
     text = to_yaml({"rosbag2_bagfile_information": _information(summaries)})
-    part = Path(folder) / "metadata.yaml.part"
-    part.write_text(text, encoding="utf-8")
-    part.replace(Path(folder) / "metadata.yaml")
+    with new_file(Path(folder) / "metadata.yaml") as file:
+        file.write(text.encode())
 
 
 def channels(summary):
@@ -74,13 +62,18 @@ def _information(summaries):
     }
 
 
+def declared_qos(channel):
+    """Return what a channel declares of its QoS, as it stands; raises `yaml_text.YamlTextError`."""
+    return load(channel.metadata.get("offered_qos_profiles", ""), f"QoS of {channel.topic}")
+
+
 def _offered_qos(channel):
     """Return a channel's QoS records; none where there is no readable text of them."""
     try:
-        told = yaml.safe_load(channel.metadata.get("offered_qos_profiles", ""))
-    except (yaml.YAMLError, ValueError, LookupError, AttributeError, RecursionError):
+        profiles = declared_qos(channel)
+    except YamlTextError:
         return []  # of other tools it may be anything
-    return told if isinstance(told, list) else []
+    return profiles if isinstance(profiles, list) else []
 
 
 def _span(statistics):

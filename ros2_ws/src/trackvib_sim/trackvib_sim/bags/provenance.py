@@ -22,8 +22,8 @@ def write_parameters(bag, node, parameters):
 def parameters(provenance):
     """Return what a bag's metadata records tell of nodes: full name -> parameters, as text."""
     return {
-        record.removeprefix(PARAMETERS_OF): told
-        for record, told in provenance.items()
+        record.removeprefix(PARAMETERS_OF): values
+        for record, values in provenance.items()
         if record.startswith(PARAMETERS_OF)
     }
 
@@ -33,11 +33,11 @@ def parameters_with(provenance, name):
 
     Nodes are found by what they have because they can be named as one likes.
     """
-    return next(((node, told) for node, told in parameters(provenance).items() if name in told), ("", {}))
+    return next(((node, values) for node, values in parameters(provenance).items() if name in values), ("", {}))
 
 
 def _parameter_file(node, parameters):
     """Return the text of a file that `--params-file` takes to start a node with the same parameters."""
     # of an empty list nobody can tell which type of list it is, ROS 2 neither
-    told = {key: list(value) if hasattr(value, "tolist") else value for key, value in parameters.items()}
-    return to_yaml({node: {"ros__parameters": {key: value for key, value in told.items() if value not in ([], None)}}})
+    known = {key: list(value) if hasattr(value, "tolist") else value for key, value in parameters.items()}
+    return to_yaml({node: {"ros__parameters": {key: value for key, value in known.items() if value not in ([], None)}}})

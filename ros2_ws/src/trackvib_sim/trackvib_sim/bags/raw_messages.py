@@ -7,7 +7,11 @@ from mr_mount_controller.node_base.cdr import leading_stamp
 
 from .errors import BagError
 from .files import bag_files
-from .recovery import DAMAGE, Recovery
+from .limits import TooLarge
+from .mcap_records import DAMAGE
+from .mcap_walk import Walk
+
+NO_SCHEMA = 0  # number with which MCAP marks a channel without a definition, of a JSON log for instance
 
 
 class RawMessage(NamedTuple):
@@ -30,30 +34,49 @@ class RawMessage(NamedTuple):
 def raw_records(path):
     """Yield a `RawMessage` for each message and each announcement of a bag, and mcap's records of everything else.
 
-    Nothing is held in memory. Chunks that are damaged are left out, and a bag that is cut short ends where it does; a
-    file that is no MCAP file ends at once.
+    Little is held in memory. Chunks that are damaged are left out, and a bag that is cut short ends where it does.
 
     Raises
     ------
     BagError
-        There is no such bag, or the system cannot read a file of it.
+        There is no such bag, a file of it is none of MCAP or cannot be read, or a record is too large.
     """
     for file in bag_files(path):
-        schemas, channels = {}, {}  # each file has numbers of its own
         try:
             with file.open("rb") as stream:
-                for record in Recovery(stream, file.stat().st_size).records():
-                    if isinstance(record, Schema):
-                        schemas[record.id] = record
-                    elif isinstance(record, Channel):
-                        channels[record.id] = schemas.get(record.schema_id), record
-                        yield RawMessage(*channels[record.id], None)
-                    elif not isinstance(record, Message):
-                        yield record
-                    elif record.channel_id in channels:
-                        yield RawMessage(*channels[record.channel_id], record)
-        except (OSError, *DAMAGE) as error:
+                yield from walked_records(Walk(stream))
+        except (OSError, TooLarge, *DAMAGE) as error:
             raise BagError(f"bag {str(path)!r} cannot be read: {error}") from None
+
+
+def walked_records(walk, schemas=(), channels=()):
+    """Yield what `raw_records` does, of one file by its `Walk`.
+
+    Messages that nothing announces get a channel without a definition, called by its number. Schemas and channels
+    (mcap's records) are what is known beforehand, from an index: the chunk that announces them may be damaged.
+    """
+    schemas = {each.id: each for each in schemas}  # each file has numbers of its own
+    channels = {each.id: (schemas.get(each.schema_id), each) for each in channels}
+    known = [RawMessage(*each, None) for each in channels.values()]
+    for part in walk.parts():
+        for record in part.others:
+            if isinstance(record, Schema):
+                schemas[record.id] = record
+            elif isinstance(record, Channel):
+                channels[record.id] = schemas.get(record.schema_id), record
+                yield RawMessage(*channels[record.id], None)
+            else:
+                yield record
+        yield from known
+        known = ()
+        heads, start, size = part.messages
+        for (number, sequence, logged, published), begin, length in zip(
+            heads.tolist(), start.tolist(), size.tolist(), strict=True
+        ):
+            if number not in channels:
+                channels[number] = None, Channel(number, f"/unannounced_{number}", "", {}, NO_SCHEMA)
+            data = part.data[begin : begin + length].tobytes()
+            yield RawMessage(*channels[number], Message(number, logged, data, published, sequence))
 
 
 def sample_messages(path, chassis, powertrain):

@@ -8,18 +8,22 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+from mcap.records import Channel, Metadata, Schema
+from mr_mount_controller.node_base import topics
 from rosbags.serde import SerdeError
 
 from ..numerics.units import NANO
-from .cdr_layout import type_store
 from .columns import Columns, Topic
+from .definitions import Definition
 from .errors import BagError
 from .files import bag_files
-from .mcap_chunks import PartedFile, take_apart
+from .limits import TooLarge
+from .mcap_records import DAMAGE
+from .mcap_walk import Walk
+from .raw_messages import NO_SCHEMA
 from .recording import Answers, Inertial, LoopCounts, Mounts, Odometry, Recording
-from .recovery import DAMAGE
 
-_SENSOR = Columns("sensor_msgs/msg/Imu", Inertial, {
+_SENSOR = Columns(topics.IMU_TYPE, Inertial, {
     "stamp": "header.stamp",
     "specific_force": ("linear_acceleration", (3,)),
     "angular_velocity": ("angular_velocity", (3,)),
@@ -27,30 +31,30 @@ _SENSOR = Columns("sensor_msgs/msg/Imu", Inertial, {
 _BOTH = {name: (name, (2,)) for name in ("current", "stiffness", "damping")}
 _VECTORS = {name: (name, (2, 3)) for name in ("deflection", "velocity", "force")}
 COLUMNS = {
-    "chassis/imu": _SENSOR,
-    "powertrain/imu": _SENSOR,
-    "mount_state": Columns("trackvib_msgs/msg/MountState", Mounts, {
+    topics.CHASSIS_IMU: _SENSOR,
+    topics.POWERTRAIN_IMU: _SENSOR,
+    topics.MOUNT_STATE: Columns(topics.MOUNT_STATE_TYPE, Mounts, {
         "stamp": "header.stamp", **_BOTH, **_VECTORS, "dissipated_power": ("dissipated_power", (2,)),
     }),
-    "coil_current": Columns("trackvib_msgs/msg/CoilCurrent", Answers, {
+    topics.COIL_CURRENT: Columns(topics.COIL_CURRENT_TYPE, Answers, {
         "sample_stamp": "sample_stamp", "current": ("current", (2,)),
     }),
-    "odometry": Columns("nav_msgs/msg/Odometry", Odometry, {
+    topics.ODOMETRY: Columns(topics.ODOMETRY_TYPE, Odometry, {
         "stamp": "header.stamp", "position": ("pose.pose.position", (3,)), "speed": ("twist.twist.linear.x", ()),
     }),
 }  # fmt: skip
-_NEEDED = ("chassis/imu", "powertrain/imu")
+_NEEDED = (topics.CHASSIS_IMU, topics.POWERTRAIN_IMU)
 _RARE = {  # read message by message
-    "diagnostics": "diagnostic_msgs/msg/DiagnosticArray",
-    "vehicle_description": "std_msgs/msg/String",
-    "road_profile": "trackvib_msgs/msg/RoadProfile",
+    topics.DIAGNOSTICS.removeprefix("/"): topics.DIAGNOSTICS_TYPE,
+    topics.VEHICLE_DESCRIPTION: topics.VEHICLE_DESCRIPTION_TYPE,
+    topics.ROAD_PROFILE: topics.ROAD_PROFILE_TYPE,
 }
 _TYPES = {end: columns.type_name for end, columns in COLUMNS.items()} | _RARE
-_NO_SCHEMA = 0  # id with which MCAP marks a channel without a definition, of a JSON log for instance
 _ANSWERS = ("accepted", "late", "duplicate", "not_finite")  # to samples that were out, among the diagnostics
-# lz4 raises RuntimeErrors; a definition that is damaged or not the one we know gives the others where it is applied
+# a definition that is damaged or not the one we know gives the others where it is applied
 _READ_ERRORS = (
-    OSError, *DAMAGE, SerdeError, RuntimeError, LookupError, OverflowError, AssertionError, AttributeError, TypeError,
+    OSError, TooLarge, *DAMAGE, SerdeError, RuntimeError, LookupError, OverflowError, AssertionError, AttributeError,
+    TypeError,
 )  # fmt: skip
 
 
@@ -100,44 +104,52 @@ class _Reading:
 
     def __init__(self):
         self._columns, self._roads, self._vehicles = {}, {}, {}  # by topic
-        self._told, self._diagnostics = [], {}
+        self._loop_counts, self._diagnostics = [], {}
         self._provenance, self._counts, self._complete = {}, Counter(), True
 
     def read(self, file, on_progress):
         """Read one file; ids of schemas and channels are its own."""
-        schemas, channels, stores = {}, {}, {}
+        schemas, channels, definitions = {}, {}, {}
         with file.open("rb") as stream:
-            parted = PartedFile(stream)
-            for part in parted.parts():
-                messages = take_apart(part.data, schemas, channels)
-                for channel_id in np.unique(messages.channel).tolist():
-                    channel = channels.get(channel_id)
+            walk = Walk(stream)
+            for part in walk.parts():
+                _require_undamaged(walk)
+                for record in part.others:
+                    if isinstance(record, Schema):
+                        schemas[record.id] = record
+                    elif isinstance(record, Channel):
+                        channels[record.id] = record
+                    elif isinstance(record, Metadata):
+                        self._provenance[record.name] = dict(record.metadata)
+                numbers = part.messages.head["channel"]
+                for number in np.unique(numbers).tolist():
+                    channel = channels.get(number)
                     schema = schemas.get(channel.schema_id) if channel else None
-                    if channel is None or (schema is None and channel.schema_id != _NO_SCHEMA):
-                        raise ValueError(f"messages on channel {channel_id}, which nothing announces")
-                    of_channel = messages.channel == channel_id
-                    start, size = messages.start[of_channel], messages.size[of_channel]
+                    if channel is None or (schema is None and channel.schema_id != NO_SCHEMA):
+                        raise ValueError(f"messages on channel {number}, which nothing announces")
+                    of_channel = numbers == number
+                    start, size = part.messages.start[of_channel], part.messages.size[of_channel]
                     self._counts[channel.topic] += len(start)
                     end = _end_of(channel.topic)
                     if end is not None and schema is not None and schema.name == _TYPES[end]:
-                        if schema.id not in stores:
-                            stores[schema.id] = type_store(schema.name, schema.encoding, schema.data)
-                        self._take(channel.topic, end, stores[schema.id], part.data, start, size)
+                        if schema.id not in definitions:
+                            definitions[schema.id] = Definition(schema.name, schema.encoding, schema.data)
+                        self._take(channel.topic, end, definitions[schema.id], part.data, start, size)
                 on_progress(part.end)
-            self._provenance |= parted.metadata
-            self._complete &= parted.complete
+            _require_undamaged(walk)
+            self._complete &= walk.complete
 
-    def _take(self, topic, end, store, data, start, size):
+    def _take(self, topic, end, definition, data, start, size):
         if end in COLUMNS:
             if topic not in self._columns:
                 self._columns[topic] = Topic(COLUMNS[end])
-            self._columns[topic].add(store, data, start, size)
+            self._columns[topic].add(definition.kind, data, start, size)
             return
         for first, length in zip(start.tolist(), size.tolist(), strict=True):
-            message = store.deserialize_cdr(data[first : first + length].data, _TYPES[end])
-            if end == "vehicle_description":
+            message = definition.message(data[first : first + length].data)
+            if end == topics.VEHICLE_DESCRIPTION:
                 self._vehicles[topic] = message.data
-            elif end == "road_profile":
+            elif end == topics.ROAD_PROFILE:
                 # copies, for these arrays would keep the whole part in memory
                 heights = message.left.copy(), message.right.copy()
                 self._roads.setdefault(topic, []).append((message.start, message.spacing, *heights))
@@ -145,12 +157,12 @@ class _Reading:
                 self._take_diagnostics(message)
 
     def _take_diagnostics(self, message):
-        told = {pair.key: pair.value for each in message.status if each.name == "simulator" for pair in each.values}
-        self._diagnostics |= told
-        if "silent_periods" in told:
+        values = {pair.key: pair.value for each in message.status if each.name == "simulator" for pair in each.values}
+        self._diagnostics |= values
+        if "silent_periods" in values:
             stamp = message.header.stamp
-            answers = sum(int(told.get(outcome, 0)) for outcome in _ANSWERS)
-            self._told.append((stamp.sec * NANO + stamp.nanosec, int(told["silent_periods"]), answers))
+            answers = sum(int(values.get(outcome, 0)) for outcome in _ANSWERS)
+            self._loop_counts.append((stamp.sec * NANO + stamp.nanosec, int(values["silent_periods"]), answers))
 
     def recording(self, path):
         """Return it all."""
@@ -160,34 +172,41 @@ class _Reading:
         missing = [end for end in _NEEDED if not found[end]]
         if missing:
             raise BagError(f"bag {str(path)!r} holds no {_SENSOR.type_name} on {', '.join(missing)}")
-        space = found["chassis/imu"][0].removesuffix("chassis/imu")
+        space = found[topics.CHASSIS_IMU][0].removesuffix(topics.CHASSIS_IMU)
         if any(found[end] != [f"{space}{end}"] for end in _NEEDED):
             several = ", ".join(topic for end in _NEEDED for topic in found[end])
             raise BagError(f"bag {str(path)!r} holds sensors of several vehicles, must be one: {several}")
-        topics = {
+        chosen = {
             end: f"{space}{end}" if f"{space}{end}" in candidates else candidates[0]
             for end, candidates in found.items()
             if candidates
         }
-        columns = {end: self._columns[topics[end]].columns() if end in topics else None for end in COLUMNS}
+        columns = {end: self._columns[chosen[end]].columns() if end in chosen else None for end in COLUMNS}
         # the first word of the next run may be among the last ones of this
-        told = np.array(sorted(self._told), np.int64).reshape(-1, 3)
+        counts = np.array(sorted(self._loop_counts), np.int64).reshape(-1, 3)
         return Recording(
             path=path,
-            topics=topics,
-            chassis=columns["chassis/imu"],
-            powertrain=columns["powertrain/imu"],
-            mounts=columns["mount_state"],
-            answers=columns["coil_current"],
-            odometry=columns["odometry"],
-            road=self._roads.get(topics.get("road_profile"), []),
-            vehicle=self._vehicles.get(topics.get("vehicle_description")),
-            told=LoopCounts(*told.T),
+            topics=chosen,
+            chassis=columns[topics.CHASSIS_IMU],
+            powertrain=columns[topics.POWERTRAIN_IMU],
+            mounts=columns[topics.MOUNT_STATE],
+            answers=columns[topics.COIL_CURRENT],
+            odometry=columns[topics.ODOMETRY],
+            road=self._roads.get(chosen.get(topics.ROAD_PROFILE), []),
+            vehicle=self._vehicles.get(chosen.get(topics.VEHICLE_DESCRIPTION)),
+            loop_counts=LoopCounts(*counts.T),
             diagnostics=self._diagnostics,
             provenance=self._provenance,
             counts=self._counts,
             complete=self._complete,
         )
+
+
+def _require_undamaged(walk):
+    """Numbers with a hole that nobody sees are worse than none."""
+    for damage in walk.damage:
+        if damage.size:
+            raise ValueError(f"it is damaged at {damage}; `trackvib bag repair` keeps all else")
 
 
 def _end_of(topic):

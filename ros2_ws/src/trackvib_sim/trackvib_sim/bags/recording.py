@@ -5,11 +5,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from mr_mount_controller.node_base import topics
 
 from ..numerics.units import NANO
 from .errors import BagError
 
-_TOPIC_OF = {"mounts": "mount_state", "road": "road_profile", "vehicle": "vehicle_description"}
+_TOPIC_OF = {"mounts": topics.MOUNT_STATE, "road": topics.ROAD_PROFILE, "vehicle": topics.VEHICLE_DESCRIPTION}
 
 
 class Inertial(NamedTuple):
@@ -49,7 +50,7 @@ class Odometry(NamedTuple):
 
 
 class LoopCounts(NamedTuple):
-    """What the simulator told of its loop, in the order of its time."""
+    """What the simulator counted in its loop, in the order of its time."""
 
     stamp: np.ndarray  # (d,) ns
     silent_periods: np.ndarray  # (d,) up to then
@@ -77,7 +78,7 @@ class Recording(NamedTuple):
     odometry: Odometry | None
     road: list  # of patches (start, spacing, left, right), m
     vehicle: str | None  # text of the vehicle file
-    told: LoopCounts
+    loop_counts: LoopCounts
     diagnostics: dict  # last values of the simulator, as text
     provenance: dict  # metadata records of the bag: name -> dict of text
     counts: Counter  # messages a topic
@@ -94,7 +95,11 @@ class Recording(NamedTuple):
         missing = [_TOPIC_OF[part] for part in parts if not getattr(self, part)]
         if missing:
             raise BagError(f"bag {str(self.path)!r} holds no messages on {', '.join(missing)}")
-        streams = {"chassis/imu": self.chassis, "powertrain/imu": self.powertrain, "mount_state": self.mounts}
+        streams = {
+            topics.CHASSIS_IMU: self.chassis,
+            topics.POWERTRAIN_IMU: self.powertrain,
+            topics.MOUNT_STATE: self.mounts,
+        }
         for end, stream in streams.items():
             back = np.flatnonzero(np.diff(stream.stamp) <= 0) if stream is not None else ()
             if len(back):

@@ -1,4 +1,4 @@
-"""Completes a bag whose recorder was killed or whose disk was full: index, statistics and `metadata.yaml`."""
+"""Completes a bag that was cut short or damaged: index, statistics and `metadata.yaml`, without what is lost."""
 
 import fcntl
 from contextlib import contextmanager
@@ -6,14 +6,19 @@ from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
-import yaml
-from mcap import records
-from mcap.writer import MCAP0_MAGIC, CompressionType, Writer
+from mcap.exceptions import InvalidMagic
+from mcap.records import Attachment, Header, Metadata
+from mcap.writer import CompressionType, Writer
 
+from ..yaml_text import YamlTextError, load, read_text
 from .errors import BagError
 from .files import bag_files
-from .metadata import summary_of, write_metadata
-from .recovery import DAMAGE, Recovery, compression_of, is_sound
+from .limits import TooLarge
+from .mcap_summary import examine, summary_of
+from .mcap_walk import Walk
+from .metadata import write_metadata
+from .new_files import new_file, set_aside
+from .raw_messages import NO_SCHEMA, RawMessage, walked_records
 from .writing import CHUNK, LIBRARY
 
 _TELL = 1000  # records between two calls of `told`
@@ -23,9 +28,11 @@ class RepairedFile(NamedTuple):
     """What became of one file of a bag."""
 
     file: Path
+    flaw: str  # why it was written anew
     messages: int  # kept
+    lost: int | None  # messages that its index counted and nobody can read; None without an index
+    damage: list  # of `Damage`: all that was passed over
     unread: int  # bytes at its end that are no whole record
-    damaged_chunks: int  # left out, as their checksum is wrong
     original: Path  # the file as it was
 
 
@@ -45,7 +52,7 @@ def repair(path, told=lambda done, size: None):
     Raises
     ------
     BagError
-        It is no bag, is being recorded, or cannot be written.
+        It is no bag, is being recorded, cannot be written, or holds a record that needs more memory than is accepted.
     """
     path = Path(path)
     try:
@@ -55,48 +62,46 @@ def repair(path, told=lambda done, size: None):
         metadata = path / "metadata.yaml"
         fits = _metadata_fits(metadata, summaries)
         if not fits:
-            if metadata.exists():
-                metadata.rename(_name_of_original(metadata))
+            if metadata.is_symlink() or metadata.exists():
+                set_aside(metadata)
             write_metadata(path, summaries)
+    except FileExistsError as error:
+        raise BagError(str(error)) from None
     except OSError as error:
         raise BagError(f"bag {str(path)!r} cannot be repaired: {error.strerror}") from None
     return Repair(done, not fits)
 
 
 def _repair_file(file, told):
-    part = file.with_name(f"{file.name}.part")
     size = file.stat().st_size
     with file.open("rb") as stream, _alone(stream):
-        if stream.read(len(MCAP0_MAGIC)) != MCAP0_MAGIC:
-            raise BagError(f"{str(file)!r} is no MCAP file")
-        if is_sound(file):
-            return None
-        original = _name_of_original(file)
-        stream.seek(0)
-        compression = CompressionType.NONE if compression_of(stream, size) == "" else CompressionType.ZSTD
-        stream.seek(0)
-        salvage = Recovery(stream, size)
         try:
-            with part.open("wb") as target:
-                whole = chain(_announced(file), salvage.records())
-                messages = _copy(whole, target, compression, lambda: told(stream.tell(), size))
-            try:
-                file.rename(original)
-                part.replace(file)
-            except BaseException:
-                if original.exists() and not file.exists():  # in between: a bag must not be left without its file
-                    original.rename(file)
-                raise
-        finally:
-            part.unlink(missing_ok=True)
-    return RepairedFile(file, messages, salvage.unread, salvage.damaged_chunks, original)
+            findings = examine(file, lambda done: told(done // 2, size))
+            if not findings.flaw:
+                return None
+            return _written_anew(file, stream, findings, lambda done: told((size + done) // 2, size))
+        except InvalidMagic:
+            raise BagError(f"{str(file)!r} is no MCAP file") from None
+        except TooLarge as error:
+            raise BagError(f"{str(file)!r} cannot be repaired: {error}") from None
 
 
-def _name_of_original(file):
-    original = file.with_name(f"{file.name}.damaged")
-    if original.exists():
-        raise BagError(f"{str(original)!r} exists already; nothing is overwritten")
-    return original
+def _written_anew(file, stream, findings, told):
+    walk, summary = Walk(stream), summary_of(file)
+    # what the index announces: the chunk that does may be damaged
+    known = () if summary is None else (summary.schemas.values(), summary.channels.values())
+    compression = CompressionType.NONE if findings.compressions == {""} else CompressionType.ZSTD
+    whole = walked_records(walk, *known)
+    aside = file.with_name(f"{file.name}.damaged")
+    try:
+        with new_file(file, before=lambda: set_aside(file)) as target:
+            messages = _copy(whole, target, compression, lambda: told(stream.tell()))
+    except BaseException:
+        if aside.exists() and not file.exists():  # in between: a bag must not be left without its file
+            aside.rename(file)
+        raise
+    lost = None if summary is None else max(summary.statistics.message_count - messages, 0)
+    return RepairedFile(file, findings.flaw, messages, lost, walk.damage, walk.unread, aside)
 
 
 @contextmanager
@@ -111,53 +116,61 @@ def _alone(stream):
     yield
 
 
-def _announced(file):
-    """Return schemas and channels from the index, if it can be read: the chunk that announces them may be damaged."""
-    try:
-        summary = summary_of(file)
-    except (OSError, *DAMAGE):  # OSError: shorter than a footer
-        summary = None
-    return [] if summary is None else [*summary.schemas.values(), *summary.channels.values()]
-
-
-def _copy(whole, target, compression, told):
-    """Write whole records to a new file, with an index; returns how many messages."""
+def _copy(records, target, compression, told):
+    """Write `walked_records` to a new file, with an index; returns how many messages."""
     writer = Writer(target, chunk_size=CHUNK, compression=compression)
-    header, schemas, channels, messages = None, {0: 0}, {}, 0
-    for number, record in enumerate(whole):
+    first = next(records, None)
+    writer.start(*((first.profile, first.library) if isinstance(first, Header) else ("ros2", LIBRARY)))
+    messages, copied = 0, _Copied(writer)
+    for number, record in enumerate(chain([first], records)):
         if number % _TELL == 0:
             told()
         match record:
-            case records.Header():
-                header = record
-                writer.start(record.profile, record.library)
-            # both may come again, in other chunks and behind the data
-            case records.Schema() if record.id not in schemas:
-                schemas[record.id] = writer.register_schema(record.name, record.encoding, record.data)
-            case records.Channel() if record.id not in channels and record.schema_id in schemas:
-                channels[record.id] = writer.register_channel(
-                    record.topic, record.message_encoding, schemas[record.schema_id], record.metadata
-                )
-            case records.Message() if record.channel_id in channels:
-                writer.add_message(
-                    channels[record.channel_id], record.log_time, record.data, record.publish_time, record.sequence
-                )
-                messages += 1
-            case records.Metadata():
+            case RawMessage(schema, channel, message):
+                to = copied.channel(schema, channel)
+                if message is not None:
+                    writer.add_message(to, message.log_time, message.data, message.publish_time, message.sequence)
+                    messages += 1
+            case Metadata():
                 writer.add_metadata(record.name, record.metadata)
-            case records.Attachment():
+            case Attachment():
                 writer.add_attachment(record.create_time, record.log_time, record.name, record.media_type, record.data)
-    if header is None:
-        writer.start("ros2", LIBRARY)
     writer.finish()
     return messages
+
+
+class _Copied:
+    """The schemas and channels that a new file has so far."""
+
+    def __init__(self, writer):
+        self._writer = writer
+        self._schemas, self._channels = {}, {}  # by number in the old file: record there, number in the new file
+
+    def channel(self, schema, channel):
+        """Return the number of a channel in the new file, to which it is added if it is not there."""
+        old, new = self._channels.get(channel.id, (None, None))
+        if old is not channel and old != channel:
+            new = self._writer.register_channel(
+                channel.topic, channel.message_encoding, self._schema(schema), channel.metadata
+            )
+            self._channels[channel.id] = channel, new
+        return new
+
+    def _schema(self, schema):
+        if schema is None:
+            return NO_SCHEMA
+        old, new = self._schemas.get(schema.id, (None, None))
+        if old != schema:
+            new = self._writer.register_schema(schema.name, schema.encoding, schema.data)
+            self._schemas[schema.id] = schema, new
+        return new
 
 
 def _metadata_fits(metadata, summaries):
     """Return whether `metadata.yaml` is there and speaks of these files and their messages."""
     try:
-        told = yaml.safe_load(metadata.read_text(encoding="utf-8"))["rosbag2_bagfile_information"]
+        told = load(read_text(metadata), metadata.name)["rosbag2_bagfile_information"]
         messages = sum(summary.statistics.message_count for summary in summaries.values())
-        return told["relative_file_paths"] == list(summaries) and told["message_count"] == messages
-    except (FileNotFoundError, yaml.YAMLError, KeyError, TypeError, UnicodeDecodeError):
+        return bool(told["relative_file_paths"] == list(summaries) and told["message_count"] == messages)
+    except (YamlTextError, KeyError, TypeError, IndexError):
         return False

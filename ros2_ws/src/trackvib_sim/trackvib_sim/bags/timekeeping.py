@@ -1,21 +1,22 @@
 """What the stamps of recorded messages tell: their time in the bag, how far it is complete, that a run begins anew."""
 
-from mr_mount_controller.node_base.cdr import leading_stamp
-
-from ..numerics.units import NANO
+from mr_mount_controller.node_base import topics
+from mr_mount_controller.node_base.cdr import NANO, leading_stamp
 
 # Their stamps are the simulation's own time, and go up by so many ns at least from message to message of one topic. If
 # they do not, the simulation has begun anew.
 _LEAST_STEP = {
-    "sensor_msgs/msg/Imu": 1,
-    "trackvib_msgs/msg/MountState": 1,
-    "rosgraph_msgs/msg/Clock": 0,
-    "nav_msgs/msg/Odometry": 0,
+    topics.IMU_TYPE: 1,
+    topics.MOUNT_STATE_TYPE: 1,
+    topics.CLOCK_TYPE: 0,
+    topics.ODOMETRY_TYPE: 0,
 }
 # One of each comes every period, whatever the partners do.
-_EVERY_PERIOD = ("sensor_msgs/msg/Imu", "trackvib_msgs/msg/MountState")
-_ANSWER = "trackvib_msgs/msg/CoilCurrent"
+_EVERY_PERIOD = (topics.IMU_TYPE, topics.MOUNT_STATE_TYPE)
+_ANSWER = topics.COIL_CURRENT_TYPE
 END_OF_TIME = (2**31 - 1) * NANO  # ns; the latest whole second that a stamp can hold
+_END = 2**31 * NANO  # ns that a time can hold
+_JUMP = 3600 * NANO  # ns; a stamp so far ahead is believed when the topic's next one agrees
 
 
 class Timekeeping:
@@ -23,6 +24,7 @@ class Timekeeping:
 
     def __init__(self):
         self.latest = 0  # ns, of all stamps so far
+        self._doubted = {}  # topic -> latest stamp far ahead of all others, ns
         self._keepers = {}  # topic -> latest stamp, ns
         self._paced = set()  # topics that come every period
         self._types = set()  # of the topics that are recorded
@@ -51,9 +53,12 @@ class Timekeeping:
     def add(self, topic, type_name, stamped, data):
         """Take note of a serialised message; returns its time in the bag [ns], or None if it begins a new epoch.
 
-        A message without a stamp (`stamped` false, or one that nobody filled in) has that of the latest one.
+        A message without a stamp (`stamped` false, or one that nobody filled in) has that of the latest one, and so has
+        one whose stamp cannot be true: it is negative, or all by itself far ahead.
         """
         stamp = leading_stamp(data) if stamped else 0
+        if not self._believable(topic, stamp):
+            return self.latest
         least_step = _LEAST_STEP.get(type_name)
         if least_step is None or stamp < least_step:
             stamp = stamp or self.latest
@@ -67,3 +72,9 @@ class Timekeeping:
         if type_name in _EVERY_PERIOD:
             self._paced.add(topic)
         return stamp
+
+    def _believable(self, topic, stamp):
+        if self.latest and stamp > self.latest + _JUMP:
+            doubted, self._doubted[topic] = self._doubted.get(topic), stamp
+            return stamp < _END and doubted is not None and 0 <= stamp - doubted <= _JUMP
+        return 0 <= stamp < _END

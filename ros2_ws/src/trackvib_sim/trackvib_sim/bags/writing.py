@@ -9,7 +9,8 @@ from pathlib import Path
 from mcap.writer import CompressionType, Writer
 
 from .errors import BagError
-from .metadata import summary_of, to_yaml, write_metadata
+from .mcap_summary import summary_of
+from .metadata import to_yaml, write_metadata
 from .schemas import schema_text
 
 LIBRARY = "trackvib"
@@ -40,7 +41,7 @@ class BagWriter:
         except OSError as error:
             raise BagError(f"bag {str(path)!r} cannot be made: {error.strerror}") from None
         try:
-            self._file = (self.path / f"{self.path.name}_0.mcap").open("wb")
+            self._file = (self.path / f"{self.path.name}_0.mcap").open("xb")
             with suppress(OSError):  # where files cannot be locked, none is
                 fcntl.flock(self._file, fcntl.LOCK_EX)  # repair keeps away as long as we live
             self._mcap = Writer(self._file, chunk_size=chunk_size, compression=COMPRESSIONS[compression])

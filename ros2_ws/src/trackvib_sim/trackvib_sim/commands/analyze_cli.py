@@ -1,14 +1,14 @@
 """The command line's `trackvib analyze`."""
 
-import sys
-
 import click
 
 from ..analysis.settling import SHORTEST_SETTLING
-from .option_types import FiniteRange
+from .endings import fail
+from .option_types import FiniteRange, largest_chunk_option
 
 
 @click.command()
+@largest_chunk_option
 @click.argument("bags", nargs=-1, required=True, metavar="BAG...", type=click.Path())
 @click.option(
     "--settle",
@@ -37,5 +37,4 @@ def analyze(bags, settle, out):
     try:
         run_analyze(bags, settle, out)
     except (BagError, CommandError) as error:
-        click.echo(f"error: {error}", err=True)
-        sys.exit(1)
+        fail(error)

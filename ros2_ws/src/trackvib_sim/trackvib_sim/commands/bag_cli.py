@@ -5,7 +5,8 @@ from contextlib import contextmanager
 
 import click
 
-from .option_types import INTERRUPTED
+from .endings import fail, say
+from .option_types import INTERRUPTED, largest_chunk_option
 
 
 @click.group()
@@ -20,14 +21,14 @@ def _ends_in_one_line():
     try:
         yield
     except BagError as error:
-        click.echo(f"error: {error}", err=True)
-        sys.exit(1)
+        fail(error)
     except KeyboardInterrupt:
-        click.echo("interrupted; the bag is as it was", err=True)
+        say("interrupted; the bag is as it was")
         sys.exit(INTERRUPTED)
 
 
 @bag.command()
+@largest_chunk_option
 @click.argument("bag", type=click.Path())
 def info(bag):
     """Show what is in a bag: topics, messages, times, and what made it."""
@@ -38,6 +39,7 @@ def info(bag):
 
 
 @bag.command()
+@largest_chunk_option
 @click.argument("bag", type=click.Path(file_okay=False))
 def repair(bag):
     """Complete a bag whose recorder was killed or whose disk was full.

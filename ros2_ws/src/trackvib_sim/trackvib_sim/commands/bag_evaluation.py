@@ -4,18 +4,18 @@ from datetime import datetime
 from os.path import realpath
 from pathlib import Path
 
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TimeRemainingColumn
 from rich.table import Table
 
-from ..analysis.bag_analysis import analyse
+from ..analysis.analyse import analyse
 from ..analysis.bag_tables import write_tables
 from ..analysis.levels import WEIGHTINGS
+from ..analysis.numbers import AXES
 from ..analysis.report.page import write_report
 from ..analysis.report.report_data import build_report_data
-from ..analysis.summary import AXES
 from ..bags.files import bag_files
 from ..bags.reading import read_recording
+from ..console import Description, Terminal
 from .result_folder import CommandError, all_or_nothing
 
 
@@ -28,7 +28,7 @@ def run_analyze(bags, settle, out):
         A bag is given twice, cannot be read or is too short, or the folder exists or cannot be written. No folder is
         left then.
     """
-    console = Console(highlight=False, markup=False)  # paths and notes may hold brackets
+    console = Terminal()
     folder = out or Path("analyses") / f"{datetime.now():%Y%m%dT%H%M%S}"
     with all_or_nothing(folder) as folder:
         _require_different(bags)
@@ -45,8 +45,8 @@ def run_analyze(bags, settle, out):
         write_tables(analyses, folder)
         write_report(report_data_list, folder / "report.html")
     for number, analysis in enumerate(analyses, 1):
-        told = f"{analysis.duration:g} s, of which {analysis.measured:g} s count, after {analysis.settle:g} s"
-        console.print(f"bag {number}: {analysis.bag}: {told}", soft_wrap=True)
+        length = f"{analysis.duration:g} s, of which {analysis.measured:g} s count, after {analysis.settle:g} s"
+        console.print(f"bag {number}: {analysis.bag}: {length}", soft_wrap=True)
         for note in analysis.notes:
             console.print(f"  {note}", soft_wrap=True)
     for table in (_levels(analyses), _lines(analyses), _mounts(analyses)):
@@ -66,7 +66,7 @@ def _require_different(bags):
 
 
 def _progress(console):
-    columns = (TextColumn("{task.description}", markup=False), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
+    columns = (Description(), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
     return Progress(*columns, console=console)
 
 

@@ -9,17 +9,20 @@ from dataclasses import asdict, dataclass
 from datetime import datetime
 from pathlib import Path
 
-from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
-from ..analysis.bag_analysis import analyse
+from ..analysis.analyse import analyse
 from ..analysis.completeness import missing
+from ..analysis.numbers import AXES, SENSORS
+from ..analysis.picture_data import prepare
 from ..analysis.plots import run_picture
+from ..analysis.segments import SHORTEST_MEASURING
 from ..analysis.settling import settling_time
-from ..analysis.summary import AXES, SENSORS, SHORTEST_MEASURING, prepare, summarise
+from ..analysis.summary import summarise
 from ..bags.errors import BagError
 from ..bags.reading import read_recording
+from ..console import Description, Terminal
 from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses, closed_loop_parameters
 from ..nodes.road_excitation import PARAMETERS as ROAD_PARAMETERS
 from ..nodes.watch import Watch
@@ -70,7 +73,7 @@ def run_loop(choices, out):
             f"--duration is {choices.duration:g} s, must be at least {needed:.1f} s at {choices.speed:g} m/s: "
             f"{choices.settling:.1f} s to settle and {SHORTEST_MEASURING:g} s to measure"
         )
-    console = Console(highlight=False, markup=False)
+    console = Terminal()
     with own_domain():
         name = f"{datetime.now():%Y%m%dT%H%M%S}_{choices.road_class}_{choices.speed:g}"
         folder = make_folder(out or Path("runs") / name)
@@ -145,7 +148,7 @@ def _ending(name, code, folder):
 def _follow(processes, duration, console):
     """Show progress until a process has ended."""
     columns = (
-        TextColumn("{task.description}"),
+        Description(),
         BarColumn(),
         TextColumn("{task.completed:.1f} of {task.total:g} s, {task.fields[pace]} x real time"),
         TimeRemainingColumn(),
@@ -174,7 +177,7 @@ def _evaluate(choices, folder, console):
         numbers.write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
         run_picture(prepare(recording, choices.settling), choices.title, picture)
         with text.open("w", encoding="utf-8") as file:
-            _print_summary(Console(file=file, width=100, markup=False), summary, folder)
+            _print_summary(Terminal(file=file, width=100), summary, folder)
     _print_summary(console, summary, folder)
     return missing(recording)
 

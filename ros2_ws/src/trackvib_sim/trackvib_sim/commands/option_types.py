@@ -6,6 +6,8 @@ import click
 from mr_mount_controller.laws import find_law
 from mr_mount_controller.node_base.parameters import ParameterError
 
+from ..bags.limits import LARGEST_CHUNKS, largest_chunk
+
 INTERRUPTED = 130  # exit code of what Ctrl-C has ended, as shells give it
 
 
@@ -29,6 +31,22 @@ class Several(click.ParamType):
     def convert(self, value, param, ctx):
         parts = value.split(",") if isinstance(value, str) else value
         return tuple(sorted({self.item.convert(part, param, ctx) for part in parts}))
+
+
+def largest_chunk_option(command):
+    """Give a command the option that says how much memory a record of a bag may take."""
+    low, high = LARGEST_CHUNKS
+    return click.option(
+        "--largest-chunk",
+        type=click.IntRange(low, high),
+        default=largest_chunk.get(),
+        show_default=True,
+        metavar="MIB",
+        expose_value=False,
+        callback=lambda _context, _parameter, value: largest_chunk.set(value),
+        help="Memory in MiB that a chunk of a bag may take when it is unfolded, and any other record; a bag that needs "
+        "more is refused.",
+    )(command)
 
 
 def known_law(_context, _parameter, value):

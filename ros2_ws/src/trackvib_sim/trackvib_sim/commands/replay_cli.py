@@ -8,7 +8,8 @@ import click
 from mr_mount_controller.laws import known_laws
 from mr_mount_controller.laws.base import LawError
 
-from .option_types import known_law
+from .endings import fail
+from .option_types import known_law, largest_chunk_option
 
 EXTERNAL = "external"
 CANNOT_VERIFY = 2
@@ -19,6 +20,7 @@ def _law_or_external(context, parameter, value):
 
 
 @click.command()
+@largest_chunk_option
 @click.argument("bag", type=click.Path())
 @click.option(
     "--verify",
@@ -54,12 +56,11 @@ def replay(bag, verify, law, controller, out):
         raise click.UsageError("exactly one of --verify, --law and --controller is needed")
     if verify and out is not None:
         raise click.UsageError("--verify leaves nothing, so --out does not go with it")
-    from rich.console import Console  # imported late: --help need not wait for it
-
-    from ..bags.errors import BagError
+    from ..bags.errors import BagError  # imported late: --help need not wait for it
+    from ..console import Terminal
     from .result_folder import CommandError
 
-    console = Console(highlight=False, markup=False)
+    console = Terminal()
     name = (law or controller or "").rpartition(":")[2]
     out = out or Path("runs") / f"{datetime.now():%Y%m%dT%H%M%S}_replay_{name}"
     try:
@@ -77,5 +78,4 @@ def replay(bag, verify, law, controller, out):
 
             run_replay_controller(bag, None if controller == EXTERNAL else controller, out, console)
     except (BagError, LawError, CommandError, ValueError, OSError) as error:
-        click.echo(f"{'cannot be verified' if verify else 'error'}: {error}", err=True)
-        sys.exit(CANNOT_VERIFY if verify else 1)
+        fail(error, *((CANNOT_VERIFY, "cannot be verified") if verify else ()))

@@ -5,9 +5,10 @@ from contextlib import contextmanager
 
 import numpy as np
 from mr_mount_controller.node_base.qos import LOOP_WRITER_QOS
+from mr_mount_controller.node_base.topics import CHASSIS_IMU, COIL_CURRENT, COIL_CURRENT_TYPE, POWERTRAIN_IMU
 
 from ..analysis.replay_pictures import currents_picture
-from ..analysis.segments import period_of
+from ..analysis.stamps import period_of
 from ..bags.copying import copy_bag
 from ..bags.errors import BagError
 from ..bags.files import called
@@ -15,11 +16,11 @@ from ..bags.qos import qos_record
 from ..bags.raw_messages import sample_messages
 from ..bags.reading import read_recording
 from ..bags.writing import BagWriter
+from ..console import followed
 from ..nodes.controller_trial import ControllerTrial
 from ..nodes.processes import LoopProcesses, closed_loop_parameters
 from ..numerics.units import NANO
 from .closed_loop_run import own_domain
-from .progress import followed
 from .result_folder import CommandError, all_or_nothing
 
 REPLAYED = "/replayed/current"  # topic of the new answers
@@ -67,8 +68,8 @@ def _replay_into_bag(recording, law, folder, console):
     writer, replayed = BagWriter(folder / "bag"), {}
     try:
         copy_bag(recording.path, writer)
-        for name, told in recording.provenance.items():
-            writer.add_provenance(name, told)
+        for name, values in recording.provenance.items():
+            writer.add_provenance(name, values)
         writer.add_provenance("replay", {"bag": recording.path, "controller": law or "external"})
         _replay(recording, law, writer, replayed, folder, console)
     except KeyboardInterrupt as interrupt:
@@ -83,11 +84,11 @@ def _replay(recording, law, writer, replayed, folder, console):
     topics, stamps = recording.topics, recording.chassis.stamp
     with _controller(law, round(NANO / period_of(stamps)), folder) as check, ControllerTrial() as trial:
         if law is None:
-            console.print("waiting for a controller that listens to chassis/imu or powertrain/imu and answers on "
-                          "coil_current", soft_wrap=True)  # fmt: skip
+            console.print(f"waiting for a controller that listens to {CHASSIS_IMU} or {POWERTRAIN_IMU} and answers on "
+                          f"{COIL_CURRENT}", soft_wrap=True)  # fmt: skip
         trial.wait_for_controller(check)
-        writer.add_topic(REPLAYED, "trackvib_msgs/msg/CoilCurrent", [qos_record(LOOP_WRITER_QOS)], trial.type_hash())
-        samples = sample_messages(recording.path, topics["chassis/imu"], topics["powertrain/imu"])
+        writer.add_topic(REPLAYED, COIL_CURRENT_TYPE, [qos_record(LOOP_WRITER_QOS)], trial.type_hash())
+        samples = sample_messages(recording.path, topics[CHASSIS_IMU], topics[POWERTRAIN_IMU])
         for stamp, *imus in followed(samples, "asking the controller", console, len(stamps)):
             answer = trial.answer(stamp, *imus)
             if answer is None:

@@ -5,23 +5,28 @@ import json
 import numpy as np
 from mr_mount_controller.laws import find_law
 from mr_mount_controller.node_base import topics
+from mr_mount_controller.node_base.plain_text import readable, shortened
 from rich.table import Table
 
-from ..analysis.bag_analysis import analyse
+from ..analysis.analyse import analyse
+from ..analysis.numbers import AXES, SENSORS
+from ..analysis.picture_data import prepare
 from ..analysis.replay_pictures import drives_picture
-from ..analysis.summary import AXES, SENSORS, TooShort, prepare, start_of, summarise
+from ..analysis.segments import TOPICS, TooShort
+from ..analysis.stamps import start_of
+from ..analysis.summary import summarise
 from ..bags.copying import copy_bag
 from ..bags.files import called
 from ..bags.provenance import PARAMETERS_OF, parameters_with, write_parameters, write_versions
 from ..bags.reading import read_recording
 from ..bags.writing import BagWriter
+from ..console import followed
 from ..nodes.rerun_bag import RerunBag
 from ..nodes.simulator_parameters import prepare_again
 from ..numerics.units import NANO
 from ..simulation.closed_loop import periods_under_law
 from ..simulation.simulation import RunFailed
 from ..vehicle.mount_energy import mount_energy_account
-from .progress import followed
 from .result_folder import all_or_nothing
 
 
@@ -51,7 +56,7 @@ def _compare(recording, rerun, law, ended, folder):
     """Draw both drives over the same instants; returns what they are called, and their levels."""
     begin, last = start_of(recording), int(rerun.chassis.stamp[-1])
     recorded_law = parameters_with(recording.provenance, "law")[1].get("law", "law not told")
-    labels = (f"recorded ({recorded_law})", f"replayed ({law})")
+    labels = (f"recorded ({shortened(readable(recorded_law))})", f"replayed ({law})")
     both = _between(recording, begin, last, rerun), _between(rerun, begin, last, recording)
     drives = dict(zip(labels, both, strict=True))
     try:
@@ -109,9 +114,9 @@ def _describe(writer, recording, controller, law, chosen):
         own = {parameter.name: getattr(chosen, parameter.name) for parameter in chosen.parameters}
         write_parameters(writer, controller, {"law": law, **own})
     replaced = ("versions", "replay", f"{PARAMETERS_OF}{controller}")
-    for name, told in recording.provenance.items():
+    for name, values in recording.provenance.items():
         if name not in replaced:
-            writer.add_provenance(name, told)
+            writer.add_provenance(name, values)
 
 
 def _between(recording, begin, last, other):
@@ -121,7 +126,7 @@ def _between(recording, begin, last, other):
     begins at the start, lacks none, and may end early.
     """
     cut = {}
-    for part in ("chassis", "powertrain", "mounts", "answers", "odometry"):
+    for part in TOPICS:
         columns = getattr(recording, part)
         if columns is None:
             continue
@@ -130,7 +135,7 @@ def _between(recording, begin, last, other):
             kept &= np.isin(columns[0], getattr(other, part).stamp)
         cut[part] = type(columns)(*(column[kept] for column in columns)) if kept.any() else None
     # when the whole run ended says nothing about a part of it
-    diagnostics = {key: told for key, told in recording.diagnostics.items() if key != "time"}
+    diagnostics = {key: text for key, text in recording.diagnostics.items() if key != "time"}
     return recording._replace(diagnostics=diagnostics, **cut)
 
 

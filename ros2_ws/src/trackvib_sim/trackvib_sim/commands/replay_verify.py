@@ -4,16 +4,16 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from mr_mount_controller.node_base import topics
 
-from ..analysis.numbers import SIDES
-from ..analysis.summary import AXES
+from ..analysis.numbers import AXES, SIDES
 from ..bags.reading import COLUMNS, read_recording
 from ..bags.versions import versions
+from ..console import followed
 from ..nodes.simulator_parameters import prepare_again
 from ..numerics.units import NANO
 from ..simulation.recorded_currents import NotTold, currents_in_force
 from ..simulation.simulation import CHASSIS, POWERTRAIN, RunFailed
-from .progress import followed
 
 _PLACES = {2: SIDES, 3: AXES}  # along each dimension of a column, by its length
 _TAIL = NANO  # ns at the end of a bag in which its topics need not end together
@@ -57,9 +57,9 @@ def verify(bag, console):
         raise NotVerifiable("its run followed the wall clock (pace is 'realtime'), so it depends on the machine")
     # the mounts first: a wrong current is seen there by its name
     mounts, chassis, powertrain = streams = (
-        _Stream(recording, "mount_state", recording.mounts),
-        _Stream(recording, "chassis/imu", recording.chassis),
-        _Stream(recording, "powertrain/imu", recording.powertrain),
+        _Stream(recording, topics.MOUNT_STATE, recording.mounts),
+        _Stream(recording, topics.CHASSIS_IMU, recording.chassis),
+        _Stream(recording, topics.POWERTRAIN_IMU, recording.powertrain),
     )
     rates, last = simulation.settings.rates, int(max(stream.stamp[-1] for stream in streams))
     answered = last if recording.answers is None else recording.answers.sample_stamp.max()

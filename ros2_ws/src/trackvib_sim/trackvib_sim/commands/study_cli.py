@@ -6,9 +6,10 @@ from contextlib import contextmanager
 import click
 
 from ..road.iso8608 import CLASSES
+from .endings import fail, say
 from .option_types import INTERRUPTED, FiniteRange, Several
 
-SCENARIOS = ("e10", "c20", "run_up", "bump")  # those of studies.controlled, which takes long to import
+SCENARIOS = ("e10", "c20", "run_up", "bump")  # those of studies.controllers, which takes long to import
 
 
 @click.group()
@@ -24,10 +25,9 @@ def _ends_in_one_line(out):
     try:
         yield
     except (WorkersError, ValueError, OSError) as error:
-        click.echo(f"error: {error}", err=True)
-        sys.exit(1)
+        fail(error)
     except KeyboardInterrupt:
-        click.echo(f"interrupted; finished runs are kept in {out}, the same command goes on from there", err=True)
+        say(f"interrupted; finished runs are kept in {out}, the same command goes on from there")
         sys.exit(INTERRUPTED)
 
 

@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
-from rich.console import Console
-from rich.markup import escape
+from mr_mount_controller.node_base.plain_text import readable
 from rich.table import Table
+from rich.text import Text
 
+from ..console import Terminal
 from ..data import default_vehicle_file
 from ..drawings.vehicle_picture import vehicle_picture
 from ..drawings.vehicle_table import Figure, Parameter, figures, parameters
@@ -29,7 +30,7 @@ def run_vehicle(vehicle_file, picture):
     vehicle, text = read_vehicle(path)
     with whole_or_none(Path(picture)) as (file,):
         vehicle_picture(vehicle, file)
-    out = Console(highlight=False)
+    out = Terminal()
     out.print(_parameters(text, f"Vehicle {path}"))
     out.print(_figures(vehicle))
     out.print(f"drawing: {picture}")
@@ -39,14 +40,14 @@ def _parameters(text, title):
     table = Table(*Parameter._fields, title=title)
     for section, items in parameters(text).items():
         table.add_section()
-        table.add_row(f"[bold]{section}")
+        table.add_row(Text(readable(section), style="bold"))
         for item in items:
-            table.add_row(*(escape(word) for word in item))
+            table.add_row(*item)
     return table
 
 
 def _figures(vehicle):
     table = Table(*Figure._fields, title="What follows from these")
     for figure in figures(vehicle):
-        table.add_row(*(escape(word) for word in figure))
+        table.add_row(*figure)
     return table

@@ -3,9 +3,9 @@
 import re
 from pathlib import Path
 
-from rich.console import Console
 from rich.table import Table
 
+from ..console import Terminal
 from ..data import default_vehicle_file
 from ..drawings.mode_pictures import mode_pictures
 from ..rui.linear.modes import describe, modes
@@ -33,7 +33,7 @@ def run_modes(current, highest, picture):
     found = [mode for mode in modes(model, highest) if mode.frequency <= highest]
     oscillating = [mode for mode in found if not mode.overdamped]
     creeping = [mode for mode in found if mode.overdamped]
-    out = Console()
+    out = Terminal()
     out.print(_table(model, oscillating, f"Oscillations of the standing vehicle, {current:g} A in both mounts"))
     if creeping:
         out.print(_creeping(model, creeping))

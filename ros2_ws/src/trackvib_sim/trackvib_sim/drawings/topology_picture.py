@@ -1,6 +1,6 @@
 """A tree of bodies drawn from its table: bodies as discs, hinges as numbered lines, the root on the left.
 
-    ./trackvib exec -- python -m trackvib_sim.analysis.topology_picture PICTURE.png
+    ./trackvib exec -- python -m trackvib_sim.drawings.topology_picture PICTURE.png
 
 draws the vehicle as the reference paper has it, with the recoil part as the transfer root.
 """

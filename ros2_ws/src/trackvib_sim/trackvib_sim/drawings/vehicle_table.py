@@ -1,23 +1,12 @@
-"""A vehicle's parameters with their sources, and what follows from them, as tables; also those in docs/vehicle.md.
-
-    ./trackvib exec -- python -m trackvib_sim.analysis.vehicle_table docs/vehicle.md
-
-renews the tables of a Markdown file, which stand between `<!-- figures -->` and `<!-- /figures -->` and between
-`<!-- parameters -->` and `<!-- /parameters -->`, for the vehicle that comes with the package.
-"""
+"""A vehicle's parameters with their sources, and what follows from them, as rows of tables."""
 
 import re
-import sys
 from math import sqrt
-from pathlib import Path
 from typing import NamedTuple
 
-import yaml
-
-from ..data import default_vehicle_file
 from ..vehicle.body_tree import GRAVITY
 from ..vehicle.tracks.layout import sink
-from ..vehicle.vehicle_file import parse_vehicle
+from ..yaml_text import load
 from .assembled_vehicle import assemble_vehicle
 from .sprocket_drawing import free_entry, half_gap
 
@@ -50,7 +39,7 @@ def parameters(text):
             Parameter(item, _words(each["value"]), each["unit"], each["source"], each.get("note", ""))
             for item, each in items.items()
         ]
-        for section, items in yaml.safe_load(text).items()
+        for section, items in load(text, "the vehicle file").items()
     }
 
 
@@ -105,32 +94,6 @@ def longest_step(vehicle):
     return (sqrt(c * c + 4.0 * k) - c) / k
 
 
-def renewed(document, text):
-    """Return a Markdown document with its tables renewed for a vehicle file's text.
-
-    Raises
-    ------
-    ValueError
-        A pair of marks is not there once.
-    """
-    vehicle = parse_vehicle(text, "the vehicle file")
-    rows = []
-    for section, items in parameters(text).items():
-        rows += [(f"**{section}**",) + ("",) * 4, *items]
-    for name, table in (("figures", _markdown(Figure, figures(vehicle))), ("parameters", _markdown(Parameter, rows))):
-        parts = re.split(f"(?<=<!-- {name} -->\n).*?(?=<!-- /{name} -->)", document, flags=re.DOTALL)
-        if len(parts) != 2:
-            marks = f"<!-- {name} --> with <!-- /{name} --> below it"
-            raise ValueError(f"{marks} stands {len(parts) - 1} times, must be once")
-        document = table.join(parts)
-    return document
-
-
-def _markdown(kind, rows):
-    lines = (kind._fields, ("---",) * len(kind._fields), *rows)
-    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
-
-
 def _words(value):
     """A word as it is; a number, or a list of numbers or lists, to six digits."""
     if isinstance(value, list):
@@ -140,14 +103,3 @@ def _words(value):
     except ValueError:
         return value
     return re.sub(r"e\+?(-?)0*", r"e\1", f"{number:.6g}")
-
-
-def main():
-    """Renew the tables of a document."""
-    document = Path(sys.argv[1])
-    text = default_vehicle_file().read_text(encoding="utf-8")
-    document.write_text(renewed(document.read_text(encoding="utf-8"), text), encoding="utf-8")
-
-
-if __name__ == "__main__":
-    main()

@@ -6,6 +6,7 @@ import numpy as np
 import rclpy
 from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.interrupts import put_off_interrupts
+from mr_mount_controller.node_base.listener import Listener
 from mr_mount_controller.node_base.loop_node import start_ros
 from mr_mount_controller.node_base.packed_message import MessageReader
 from mr_mount_controller.node_base.patience import wait_until
@@ -14,7 +15,6 @@ from rclpy.experimental import EventsExecutor
 from sensor_msgs.msg import Imu
 from trackvib_msgs.msg import CoilCurrent
 
-from ..numerics.units import NANO
 from ..simulation.lockstep import Lockstep
 from .partners import Gathering
 
@@ -37,12 +37,17 @@ class ControllerTrial:
         self._node = rclpy.create_node("replay")
         self._imus = [self._node.create_publisher(Imu, topic, LOOP_WRITER_QOS)
                       for topic in (topics.CHASSIS_IMU, topics.POWERTRAIN_IMU)]  # fmt: skip
-        self._answers = self._node.create_subscription(
-            CoilCurrent, topics.COIL_CURRENT, self._on_answer, LOOP_QOS, raw=True
-        )
+        self._reader = MessageReader(CoilCurrent, "sample_stamp", {"current": 2})
+        self._answers = Listener(
+            self._node,
+            CoilCurrent,
+            topics.COIL_CURRENT,
+            self._on_answer,
+            LOOP_QOS,
+            lambda data: (data, *self._reader.read(data)),
+        ).subscription
         self._executor = EventsExecutor()
         self._executor.add_node(self._node)
-        self._reader = MessageReader(CoilCurrent, {"sample_stamp": "iI", "current": "2d"})
         self._lockstep = Lockstep(0.0, (-np.inf, np.inf))
         self._latest = None
         self._heard, self._given_up = -1, None  # latest sample answered, now and when silence fell, ns
@@ -88,9 +93,8 @@ class ControllerTrial:
         listeners = sum(publisher.get_subscription_count() for publisher in self._imus)
         return self._answers.get_publisher_count(), listeners
 
-    def _on_answer(self, data):
-        seconds, nanoseconds, *current = self._reader.read(data)
-        stamp = seconds * NANO + nanoseconds
+    def _on_answer(self, answer):
+        data, stamp, current = answer
         outcome = self._lockstep.offer(stamp, current)
         if outcome == "accepted":
             self._latest = Answer(tuple(current), bytes(data))

@@ -1,7 +1,9 @@
 """From records of the simulation to messages; each translator keeps one message and fills it anew."""
 
+import re
 from importlib import import_module
 
+from ament_index_python.packages import get_package_share_directory
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.packed_message import PackedMessage
@@ -10,6 +12,8 @@ from sensor_msgs.msg import Imu
 from trackvib_msgs.msg import MountState
 
 from ..numerics.units import NANO
+
+_MESSAGE_TYPE = re.compile(r"[a-z][a-z0-9_]*/msg/[A-Z][A-Za-z0-9]*")
 
 
 def message_type(name):
@@ -20,12 +24,13 @@ def message_type(name):
     ValueError
         It is not installed here, or is a part of a service or an action, of which there is no definition to go along.
     """
-    package, kind, message = name.split("/")
-    if kind != "msg":
+    if not _MESSAGE_TYPE.fullmatch(name):
         raise ValueError(f"{name} is no message type")
+    package, kind, message = name.split("/")
     try:
+        get_package_share_directory(package)  # nothing but packages of ROS is imported by a name from outside
         return getattr(import_module(f"{package}.{kind}"), message)
-    except (ImportError, AttributeError):
+    except (LookupError, ImportError, AttributeError):
         raise ValueError(f"message type {name} is not installed") from None
 
 

@@ -45,7 +45,7 @@ class SecondClock:
         self.ahead = False
         self._time = time
         self._own = 0  # the latest time that the node has ever published, ns: its own clock goes back, too
-        node.create_subscription(Clock, topics.CLOCK, self._on_clock, CLOCK_QOS)
+        node.listen(Clock, topics.CLOCK, self._on_clock, CLOCK_QOS)
 
     def refuse(self):
         """Raise `NodeError` if there is one that is ahead."""
@@ -78,7 +78,7 @@ class RecorderLag:
         self._recorded = {topics.RECORDED: None, topics.RECORDED_ANSWERS: None}
         for topic in self._recorded:
             on_recorded = partial(self._on_recorded, topic)
-            node.create_subscription(Time, topic, on_recorded, LATCHED_QOS)
+            node.listen(Time, topic, on_recorded, LATCHED_QOS)
 
     @property
     def there(self):
@@ -122,5 +122,5 @@ class RecorderLag:
 
     def _on_recorded(self, topic, written):
         stamp = written.sec * NANO + written.nanosec
-        if stamp <= self._time() or stamp == END_OF_TIME:  # else it speaks of the time before a reset
+        if 0 <= stamp <= self._time() or stamp == END_OF_TIME:  # else it speaks of the time before a reset
             self._recorded[topic] = stamp

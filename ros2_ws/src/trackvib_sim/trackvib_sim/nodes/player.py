@@ -15,6 +15,7 @@ from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
 from ..bags.errors import BagError
+from ..bags.limits import LARGEST_CHUNKS, largest_chunk
 from ..bags.playing import is_best_effort, is_latched, open_bag
 from ..numerics.units import NANO
 from .messages import message_type
@@ -28,6 +29,9 @@ PARAMETERS = (
     Parameter("end", 0.0, "Where to end, counted likewise; 0 for the bag's last message.", "s", 0.0, 1e6),
     Parameter("loop", False, "Begin again at the end."),
     Parameter("topics", ["*"], "Topics to play, by name or pattern (`*`, `?`)."),
+    Parameter(
+        "largest_chunk", largest_chunk.get(), "Memory that a record of the bag may take.", "MiB", *LARGEST_CHUNKS
+    ),
 )
 _DEPTH = 1000  # messages that may wait, or are kept for late joiners; the bag does not tell
 _CLOCK_STEP = NANO // 100  # ns
@@ -45,6 +49,7 @@ class PlayerNode(LoopNode):
     def __init__(self):
         super().__init__("player", PARAMETERS)
         self._control = RunControl(self, lambda: self._time)
+        largest_chunk.set(self.settings["largest_chunk"])
         try:
             if not self.settings["bag"]:
                 raise ParameterError("player: parameter 'bag' is empty, accepted is the place of a bag")
@@ -112,9 +117,9 @@ class PlayerNode(LoopNode):
             qos.reliability = QoSReliabilityPolicy.BEST_EFFORT
         try:
             kind = message_type(connection.msgtype)
-        except ValueError as error:
+            return self.create_publisher(kind, connection.topic.removeprefix("/"), qos)
+        except ValueError as error:  # also of a name that ROS 2 does not accept
             raise NodeError(f"{connection.topic} cannot be played: {error}") from None
-        return self.create_publisher(kind, connection.topic.removeprefix("/"), qos)
 
     def _listeners(self):
         return [sum(publisher.get_subscription_count() for publisher in self._outputs.values())]

@@ -239,7 +239,7 @@ class RecorderNode(LoopNode):
         self._bag.write(topic.name, time_in_bag, data)
         self._received += 1
         self._flush_in_time()
-        if topic.name.endswith(topics.VEHICLE_DESCRIPTION):
+        if topic.name.endswith(topics.VEHICLE_DESCRIPTION) and topic.type_name == topics.VEHICLE_DESCRIPTION_TYPE:
             self._bag.add_attachment("vehicle.yaml", deserialize_message(data, message_type(topic.type_name)).data)
 
 

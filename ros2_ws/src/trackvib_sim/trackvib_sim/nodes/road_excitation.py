@@ -2,6 +2,7 @@
 
 import sys
 
+from mr_mount_controller.node_base.listener import Refused
 from mr_mount_controller.node_base.loop_node import LoopNode, run_node
 from mr_mount_controller.node_base.parameters import Parameter
 from mr_mount_controller.node_base.qos import LATCHED_QOS, ROAD_QOS
@@ -19,6 +20,7 @@ PARAMETERS = (
     Parameter("fade", FADE, "Distance over which the roughness then fades in.", "m", 0.1, 1000.0),
     Parameter("horizon", 50.0, "Distance ahead of the vehicle that is always published.", "m", 10.0, 200.0),
 )
+_FARTHEST = 1e8  # m, more than the longest run goes
 
 
 class RoadExcitationNode(LoopNode):
@@ -31,15 +33,18 @@ class RoadExcitationNode(LoopNode):
         self._feeder = RoadFeeder(self._road, s["horizon"])
         self._last = (0, 0)  # stamp of the latest odometry, s and ns
         self._patches = self.create_publisher(RoadProfile, ROAD_PROFILE, ROAD_QOS)
-        self.create_subscription(Odometry, ODOMETRY, self._on_odometry, LATCHED_QOS)
+        self.listen(Odometry, ODOMETRY, self._on_odometry, LATCHED_QOS)
         self.get_logger().info(f"road of class {s['road_class']}, seed {s['seed']}; waiting for a vehicle's odometry")
 
     def _on_odometry(self, odometry):
+        position = odometry.pose.pose.position.x
+        if not abs(position) <= _FARTHEST:  # NaN is not either
+            raise Refused(f"position.x is {position} m, accepted is up to {_FARTHEST:g} m either way")
         stamp = (odometry.header.stamp.sec, odometry.header.stamp.nanosec)
         if stamp <= self._last:  # a new run, or a vehicle that asks again because it still has no road
             self._feeder = RoadFeeder(self._road, self.settings["horizon"])
         self._last = stamp
-        for start, spacing, heights in self._feeder.patches(odometry.pose.pose.position.x):
+        for start, spacing, heights in self._feeder.patches(position):
             patch = RoadProfile(start=start, spacing=spacing, left=heights[0], right=heights[1])
             patch.header.stamp = odometry.header.stamp
             patch.header.frame_id = ROAD_FRAME

@@ -5,6 +5,7 @@ import sys
 import time
 
 from mr_mount_controller.node_base import topics
+from mr_mount_controller.node_base.listener import Refused
 from mr_mount_controller.node_base.loop_node import LoopNode, NodeError, run_node
 from mr_mount_controller.node_base.packed_message import MessageReader
 from mr_mount_controller.node_base.qos import LOOP_QOS, ROAD_QOS
@@ -38,9 +39,9 @@ class SimulatorNode(LoopNode):
         self._warned = False  # of several controllers
 
         self._output = SimulatorOutput(self, self._simulation, vehicle_text)
-        self._answer = MessageReader(CoilCurrent, {"sample_stamp": "iI", "current": "2d"})
-        self._answers = self.create_subscription(CoilCurrent, topics.COIL_CURRENT, self._on_answer, LOOP_QOS, raw=True)
-        self.create_subscription(RoadProfile, topics.ROAD_PROFILE, self._on_road, ROAD_QOS)
+        answer = MessageReader(CoilCurrent, "sample_stamp", {"current": 2})
+        self._answers = self.listen(CoilCurrent, topics.COIL_CURRENT, self._on_answer, LOOP_QOS, answer.read)
+        self.listen(RoadProfile, topics.ROAD_PROFILE, self._on_road, ROAD_QOS)
         self._control = RunControl(self, self._time)
         self._second_clock = SecondClock(self, self._time)
         period = self._simulation.settings.rates.period
@@ -232,9 +233,8 @@ class SimulatorNode(LoopNode):
 
     # --- messages ---
 
-    def _on_answer(self, data):
-        seconds, nanoseconds, *currents = self._answer.read(data)
-        stamp = seconds * NANO + nanoseconds
+    def _on_answer(self, answer):
+        stamp, currents = answer
         # who is late is on the way back; who repeats itself or makes no sense is not
         if self._lockstep.offer(stamp, currents) in ("accepted", "late"):
             self._heard = max(self._heard, stamp)
@@ -243,7 +243,7 @@ class SimulatorNode(LoopNode):
         try:
             self._simulation.road.add(patch.start, patch.spacing, patch.left, patch.right)
         except ValueError as error:
-            self.get_logger().error(f"road patch refused: {error}")
+            raise Refused(str(error)) from None
 
     def _publish_diagnostics(self):
         controllers = self._answers.get_publisher_count()
@@ -251,6 +251,7 @@ class SimulatorNode(LoopNode):
             self._warned = True
             self.get_logger().warning(f"{controllers} nodes answer on {topics.COIL_CURRENT}; the first answer counts")
         level, values = health(self._control, self._simulation, self._lockstep, self._phases, self._silent, controllers)
+        values["refused"] = self.refused
         values["duration"] = self.settings["duration"]
         self._output.publish_diagnostics(level, values["state"], values)
 

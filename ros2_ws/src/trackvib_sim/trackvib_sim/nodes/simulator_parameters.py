@@ -3,6 +3,7 @@
 from contextlib import suppress
 
 from mr_mount_controller.node_base.parameters import Parameter, ParameterError
+from mr_mount_controller.node_base.topics import VEHICLE_DESCRIPTION
 
 from ..bags.provenance import parameters_with
 from ..data import default_vehicle_file
@@ -91,20 +92,20 @@ def prepare_again(recording):
     VehicleFileError
         The recorded vehicle cannot be used.
     """
-    _, told = parameters_with(recording.provenance, "physics_rate")
-    if not told:
+    _, recorded = parameters_with(recording.provenance, "physics_rate")
+    if not recorded:
         raise ParameterError("the bag does not tell the parameters of its simulator")
-    values = {parameter.name: _value(parameter, told) for parameter in PARAMETERS}
-    simulation = simulation_of(parse_vehicle(recording.vehicle, "vehicle_description"), values)
+    values = {parameter.name: _value(parameter, recorded) for parameter in PARAMETERS}
+    simulation = simulation_of(parse_vehicle(recording.vehicle, VEHICLE_DESCRIPTION), values)
     for patch in recording.road:
         with suppress(ValueError):  # which the simulator refused as well
             simulation.road.add(*patch)
     return simulation, values
 
 
-def _value(parameter, told):
+def _value(parameter, recorded):
     """What was recorded as text, in the type of the parameter; one that is younger than the bag has its default."""
-    text = told.get(parameter.name, str(parameter.default))
+    text = recorded.get(parameter.name, str(parameter.default))
     kind = type(parameter.default)
     try:
         return parameter.check(text == "True" if kind is bool else kind(text))

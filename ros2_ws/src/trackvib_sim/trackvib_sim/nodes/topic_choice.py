@@ -4,6 +4,8 @@ import re
 from typing import NamedTuple
 
 from mr_mount_controller.node_base import topics
+from mr_mount_controller.node_base.cdr import Checker, LayoutError
+from mr_mount_controller.node_base.definitions import installed_definition
 from mr_mount_controller.node_base.parameters import ParameterError
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
@@ -79,7 +81,7 @@ class TopicChoice:
 def subscribe(node, name, on_message):
     """Subscribe to a topic that is there, taking all that every publisher can give.
 
-    `on_message(topic, data)` gets each serialised message.
+    `on_message(topic, data)` gets each serialised message that is whole.
 
     Returns
     -------
@@ -102,4 +104,8 @@ def subscribe(node, name, on_message):
     first_field = next(iter(kind.get_fields_and_field_types().values()), "")
     stamped = first_field in ("std_msgs/Header", "builtin_interfaces/Time")
     topic = Topic(name, type_name, [qos_record(offer) for offer in offers], type_hash, stamped)
-    return topic, node.create_subscription(kind, name, lambda data: on_message(topic, data), qos, raw=True)
+    try:
+        read = Checker(installed_definition(kind)).check
+    except LayoutError:  # nobody reads it here, so it is recorded as it comes
+        read = bytes
+    return topic, node.listen(kind, name, lambda data: on_message(topic, data), qos, read)

@@ -1,14 +1,17 @@
 """Follows a running simulator from outside, for whoever shows its progress."""
 
 import time
+from math import isfinite
 
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from mr_mount_controller.node_base.interrupts import put_off_interrupts
+from mr_mount_controller.node_base.listener import Listener, Refused
 from mr_mount_controller.node_base.loop_node import start_ros
 from mr_mount_controller.node_base.topics import CHASSIS_IMU, DIAGNOSTICS
 from rclpy.experimental import EventsExecutor
 
+_NUMBERS = ("time", "real_time_factor")
 _LISTENING = 0.7  # s in which nodes that are there make themselves known
 
 
@@ -19,7 +22,7 @@ class Watch:
         start_ros()
         self._node = rclpy.create_node("trackvib_watch")
         self._values = {}
-        self._node.create_subscription(DiagnosticArray, DIAGNOSTICS, self._on_diagnostics, 1)
+        Listener(self._node, DiagnosticArray, DIAGNOSTICS, self._on_diagnostics, 1)
         self._executor = EventsExecutor()
         self._executor.add_node(self._node)
         return self
@@ -49,5 +52,16 @@ class Watch:
 
     def _on_diagnostics(self, message):
         for status in message.status:
-            if status.name == "simulator":
-                self._values = {pair.key: pair.value for pair in status.values}
+            if status.name != "simulator":
+                continue
+            values = {pair.key: pair.value for pair in status.values}
+            if not (values.get("state", "").isalpha() and all(map(_is_number, map(values.get, _NUMBERS)))):
+                raise Refused(f"its state and {', '.join(_NUMBERS)} must be a word and numbers")
+            self._values = values
+
+
+def _is_number(text):
+    try:
+        return isfinite(float(text))
+    except (TypeError, ValueError):
+        return False

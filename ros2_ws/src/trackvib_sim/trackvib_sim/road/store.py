@@ -5,6 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 KEPT_BEHIND = 20.0  # m
+_FINEST, _COARSEST = 1e-3, 100.0  # m between samples
+_MOST = 20_000_000  # samples; 1000 km of them 5 cm apart
 _FAR = 1e15  # samples, up to which whole numbers are exact in floating point
 
 
@@ -20,9 +22,10 @@ class RoadStore:
     """Patches of road, in any order, and the stretch without gap that they form around a place."""
 
     def __init__(self):
-        self._spacing = None
-        self._patches = {}  # first sample -> heights (2, m)
+        self._spacing = None  # of the road that has been driven on, m
+        self._patches = {}  # by spacing: first sample -> heights (2, m)
         self._stretch = None
+        self._samples = 0  # of all patches, or somewhat more
 
     def add(self, start, spacing, left, right):
         """Keep a patch; of two with one start the longer is kept, and they must agree.
@@ -41,10 +44,12 @@ class RoadStore:
         """
         if len(left) != len(right) or len(left) < 2:
             raise ValueError(f"left has {len(left)} samples and right {len(right)}, must be as many and at least 2")
-        if not (np.isfinite(spacing) and spacing > 0.0):
-            raise ValueError(f"spacing is {spacing} m, must be finite and > 0")
+        if not _FINEST <= spacing <= _COARSEST:
+            raise ValueError(f"spacing is {spacing} m, must be {_FINEST} to {_COARSEST} m")
         if self._spacing not in (None, spacing):
-            raise ValueError(f"spacing is {spacing} m, must be {self._spacing} m as in the patches before")
+            raise ValueError(f"spacing is {spacing} m, must be {self._spacing} m as of the road before")
+        if self._samples + len(left) > _MOST:
+            raise ValueError(f"{self._samples} samples are held already, {len(left)} more are beyond {_MOST}")
         heights = np.array([left, right], dtype=float)
         if not np.isfinite(heights).all():
             raise ValueError("a height is not finite, all must be")
@@ -52,13 +57,14 @@ class RoadStore:
         first = round(place) if abs(place) < _FAR else 0
         if not abs(first * spacing - start) <= 1e-6 * spacing:
             raise ValueError(f"start is {start} m, must be a whole multiple of the spacing {spacing} m")
-        held = self._patches.get(first, heights)
+        patches = self._patches.get(spacing, {})
+        held = patches.get(first, heights)
         common = min(held.shape[1], heights.shape[1])
         if not np.array_equal(held[:, :common], heights[:, :common]):
             raise ValueError(f"start is {start} m, where a patch with other heights is held already: two roads?")
-        self._spacing = spacing
         if heights.shape[1] >= held.shape[1]:
-            self._patches[first] = heights
+            self._patches.setdefault(spacing, {})[first] = heights
+            self._samples += heights.shape[1]
         self._stretch = None
 
     def around(self, rear, front):
@@ -66,27 +72,34 @@ class RoadStore:
 
         Patches that end far behind `rear` are forgotten.
         """
-        if not _reaches(self._stretch, rear, front) and self._spacing is not None:
-            self._forget_before(rear - KEPT_BEHIND)
-            self._stretch = self._join(int(np.floor(rear / self._spacing)))
+        if not _reaches(self._stretch, rear, front):
+            for spacing, patches in self._patches.items():
+                _forget_before((rear - KEPT_BEHIND) / spacing, patches)
+                self._stretch = _join(spacing, patches, int(np.floor(rear / spacing)))
+                if _reaches(self._stretch, rear, front):
+                    # a patch that stands alone does not tell the spacing: somebody may have sent it by mistake
+                    self._spacing, self._patches = spacing, {spacing: patches}
+                    break
+            self._samples = sum(held.shape[1] for patches in self._patches.values() for held in patches.values())
         return self._stretch if _reaches(self._stretch, rear, front) else None
 
-    def _join(self, wanted):
-        """Patches that follow each other without gap, from the one that holds sample `wanted` on."""
-        first, pieces = None, []
-        for start in sorted(self._patches):
-            heights = self._patches[start]
-            end = start + heights.shape[1]
-            if start <= wanted < end:
-                first = start if first is None else first
-                pieces.append(heights[:, wanted - start :] if pieces else heights)
-                wanted = end
-        return Road(first, self._spacing, np.concatenate(pieces, axis=1)) if pieces else None
 
-    def _forget_before(self, distance):
-        limit = distance / self._spacing
-        for first in [f for f, heights in self._patches.items() if f + heights.shape[1] < limit]:
-            del self._patches[first]
+def _join(spacing, patches, wanted):
+    """Patches that follow each other without gap, from the one that holds sample `wanted` on."""
+    first, pieces = None, []
+    for start in sorted(patches):
+        heights = patches[start]
+        end = start + heights.shape[1]
+        if start <= wanted < end:
+            first = start if first is None else first
+            pieces.append(heights[:, wanted - start :] if pieces else heights)
+            wanted = end
+    return Road(first, spacing, np.concatenate(pieces, axis=1)) if pieces else None
+
+
+def _forget_before(limit, patches):
+    for first in [f for f, heights in patches.items() if f + heights.shape[1] < limit]:
+        del patches[first]
 
 
 def _reaches(road, rear, front):

@@ -1,6 +1,6 @@
 """State, known loads and accelerations of a tree as plain arrays, one row a body in the order of its table.
 
-The reference forms (`overall`, `linear`) work on these; the compiled sweeps keep the same numbers in lanes (`tree`).
+The forms of `reference` and `linear` work on these; the compiled sweeps keep the same numbers in lanes (`sweeps.tree`).
 """
 
 from collections.abc import Sequence

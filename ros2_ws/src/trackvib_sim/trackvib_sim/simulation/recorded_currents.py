@@ -35,17 +35,17 @@ def currents_in_force(simulation, recording, on_silence):
     NotTold
         When a current is asked for that the recording should tell but does not.
     """
-    answers, told = _RecordedAnswers(recording.answers), recording.told
+    answers, counts = _RecordedAnswers(recording.answers), recording.loop_counts
     passive = held = np.full(2, simulation.settings.passive_current)
     while True:
         yield held
         stamp = simulation.time
         candidates = answers.to(stamp)
-        if not candidates and not _all_recorded(stamp, answers, told):
+        if not candidates and not _all_recorded(stamp, answers, counts):
             raise NotTold(
                 f"no answer to the sample at t = {stamp / NANO:.3f} s is recorded, but the simulator may have had one"
             )
-        if _silence_at(stamp, told):
+        if _silence_at(stamp, counts):
             candidates.append(passive if on_silence == "passive" else held)
         if not candidates:
             raise NotTold(f"no answer to the sample at t = {stamp / NANO:.3f} s is recorded, and no silence either")
@@ -75,24 +75,24 @@ class _RecordedAnswers:
         return np.searchsorted(self._stamps, stamp, "right")
 
 
-def _silence_at(stamp, told):
-    """Whether the simulator counted silent periods between what it told before and after a stamp [ns]."""
-    if not told.stamp.size:
+def _silence_at(stamp, counts):
+    """Whether the simulator counted silent periods between what it reported before and after a stamp [ns]."""
+    if not counts.stamp.size:
         return False
-    before, after = np.searchsorted(told.stamp, stamp, "left"), np.searchsorted(told.stamp, stamp, "right")
-    counts = told.silent_periods
-    return counts[min(after, len(counts) - 1)] > (counts[before - 1] if before else 0)
+    before, after = np.searchsorted(counts.stamp, stamp, "left"), np.searchsorted(counts.stamp, stamp, "right")
+    silent = counts.silent_periods
+    return silent[min(after, len(silent) - 1)] > (silent[before - 1] if before else 0)
 
 
-def _all_recorded(stamp, answers, told):
-    """Whether the simulator, when it told next after a stamp [ns], had no more answers than are recorded up to then.
+def _all_recorded(stamp, answers, counts):
+    """Whether the simulator, when it reported next after a stamp [ns], had no more answers than are recorded.
 
     The last answers of a controller that is killed need not reach everybody.
     """
-    if not told.stamp.size:
+    if not counts.stamp.size:
         return False
-    next_time = min(np.searchsorted(told.stamp, stamp, "right"), len(told.stamp) - 1)
-    return told.answers[next_time] <= answers.count(told.stamp[next_time])
+    next_time = min(np.searchsorted(counts.stamp, stamp, "right"), len(counts.stamp) - 1)
+    return counts.answers[next_time] <= answers.count(counts.stamp[next_time])
 
 
 def _likeliest(simulation, mounts, candidates):

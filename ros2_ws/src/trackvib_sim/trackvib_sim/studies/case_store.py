@@ -15,6 +15,7 @@ PACKAGE = Path(__file__).parents[1]
 DECISIVE = (  # modules that `drive` runs; all others may change without making its results void
     "data/__init__.py",
     "extras.py",
+    "yaml_text.py",
     "numerics/**/*.py",
     "rui/**/*.py",
     "road/**/*.py",

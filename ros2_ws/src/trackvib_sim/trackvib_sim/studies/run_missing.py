@@ -14,14 +14,14 @@ def run_missing(vehicle, cases, store, scheduler, progress, description, run=dri
     store : case_store.CaseStore
         Of the same cases and of the results of `run`.
     scheduler : str or None
-        As `farm.farm` takes it.
+        As `workers.workers` takes it.
     progress : rich.progress.Progress
         Shows how many of the cases are done, as `description`.
     run : function of a vehicle and a case
 
     Raises
     ------
-    FarmError, OSError
+    WorkersError, OSError
         As the workers and the store do.
     """
     found = {case: result for case in cases if (result := store.load(case)) is not None}

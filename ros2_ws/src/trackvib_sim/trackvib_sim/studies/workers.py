@@ -28,7 +28,7 @@ def workers(scheduler, cases):
 
     Raises
     ------
-    FarmError
+    WorkersError
         Nothing answers at the address, or workers that have no trackvib, or another version of it.
     """
     for name in _NOISY:
@@ -56,7 +56,7 @@ def finished(client, function, tasks):
 
     Raises
     ------
-    FarmError
+    WorkersError
         Scheduler or workers are gone, or cannot do it.
     """
     futures = client.map(function, *zip(*tasks, strict=True), pure=False)

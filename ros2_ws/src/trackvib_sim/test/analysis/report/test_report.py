@@ -7,7 +7,7 @@ import html5lib
 import numpy as np
 import pytest
 from plotly.offline import get_plotlyjs
-from trackvib_sim.analysis.bag_analysis import analyse
+from trackvib_sim.analysis.analyse import analyse
 from trackvib_sim.analysis.report import bag_figures, facts
 from trackvib_sim.analysis.report.page import write_report
 from trackvib_sim.analysis.report.report_data import build_report_data

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from markupsafe import escape
 from plotly.offline import get_plotlyjs
-from trackvib_sim.analysis.bag_analysis import analyse
+from trackvib_sim.analysis.analyse import analyse
 from trackvib_sim.analysis.report import comparison_tables
 from trackvib_sim.analysis.report.differences import differing
 from trackvib_sim.analysis.report.page import write_report

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from trackvib_sim.analysis.bag_analysis import analyse
+from trackvib_sim.analysis.analyse import analyse
 from trackvib_sim.analysis.report.report_data import COLUMNS, build_report_data, spectrogram
 from trackvib_sim.analysis.report.thinning import MOST, thinned
 
@@ -63,7 +63,7 @@ def test_spectrogram_is_empty_where_samples_are_missing():
 
 
 @pytest.mark.property
-def test_excerpt_of_a_long_bag_is_small():
+def test_report_data_of_a_long_bag_is_small():
     """Lines and spectrograms do not grow with the bag."""
     recording = made_recording(np.arange(1, 200_001))
     found = build_report_data(recording, analyse(recording))

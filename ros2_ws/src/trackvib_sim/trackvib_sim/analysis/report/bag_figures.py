@@ -4,8 +4,7 @@ import numpy as np
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 
-from ..numbers import SIDES
-from ..summary import AXES, SENSORS
+from ..numbers import AXES, SENSORS, SIDES
 from .figure_style import (
     AXIS_COLOURS,
     AXIS_NAMES,

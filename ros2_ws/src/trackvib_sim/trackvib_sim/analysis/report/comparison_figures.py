@@ -2,8 +2,7 @@
 
 import plotly.graph_objects as go
 
-from ..numbers import SIDES
-from ..summary import AXES, SENSORS
+from ..numbers import AXES, SENSORS, SIDES
 from .figure_style import AXIS_NAMES, BAG_COLOURS, BAG_DASHES, coherence, density, line, plain, ratio, settling, styled
 
 

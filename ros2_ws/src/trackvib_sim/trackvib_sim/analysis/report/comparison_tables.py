@@ -2,8 +2,7 @@
 
 from math import isclose, isfinite, nan
 
-from ..numbers import SIDES
-from ..summary import AXES, SENSORS
+from ..numbers import AXES, SENSORS, SIDES
 from .tables import MOUNT, UNITS, WORDS, Table, change, number
 
 _PLACES = [(sensor, axis) for sensor in reversed(SENSORS) for axis in AXES]

@@ -1,18 +1,18 @@
 """What differs between the runs of several bags, by the parameters and the vehicle files in them."""
 
 from ...bags.provenance import parameters
-from ...vehicle.vehicle_file import load_vehicle
-from .facts import NOT_TOLD
+from ...yaml_text import load
+from .facts import UNKNOWN
 
 
 def differing(report_data_list):
     """Return rows (node, parameter, value in each bag) of what is not the same everywhere; vehicles come last."""
-    told = [
+    by_node = [
         {node.rpartition("/")[2]: values for node, values in parameters(report_data.provenance).items()}
         for report_data in report_data_list
     ]
-    keys = sorted({(node, name) for each in told for node, values in each.items() for name in values})
-    rows = [(node, name, *(each.get(node, {}).get(name, NOT_TOLD) for each in told)) for node, name in keys]
+    keys = sorted({(node, name) for each in by_node for node, values in each.items() for name in values})
+    rows = [(node, name, *(each.get(node, {}).get(name, UNKNOWN) for each in by_node)) for node, name in keys]
     return [row for row in rows if len(set(row[2:])) > 1] + _of_vehicles(
         [report_data.vehicle for report_data in report_data_list]
     )
@@ -26,12 +26,12 @@ def _of_vehicles(texts):
     rows = []
     if None in files:
         words = (
-            "there" if entries is not None else "not a YAML file with sections" if text else NOT_TOLD
+            "there" if entries is not None else "not a YAML file with sections" if text else UNKNOWN
             for text, entries in zip(texts, files, strict=True)
         )
         rows.append(("vehicle", "file", *words))
     for key in dict.fromkeys(key for entries in files if entries for key in entries):
-        values = [None if entries is None else entries.get(key, NOT_TOLD) for entries in files]
+        values = [None if entries is None else entries.get(key, UNKNOWN) for entries in files]
         if len({value for value in values if value is not None}) > 1:
             rows.append(("vehicle", key, *("–" if value is None else value for value in values)))
     return rows
@@ -40,9 +40,9 @@ def _of_vehicles(texts):
 def _entries(text):
     """Return a vehicle file's entries as text by their flattened keys; None of a text that is none."""
     try:
-        content = load_vehicle(text or "", "vehicle")
+        content = load(text or "", "vehicle")
         return dict(_flat(content)) if isinstance(content, dict) else None
-    except ValueError:  # as load_vehicle raises it, and from integers too long to be written out
+    except ValueError:  # as `load` raises it, and from integers too long to be written out
         return None
 
 

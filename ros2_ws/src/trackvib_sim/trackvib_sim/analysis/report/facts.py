@@ -6,27 +6,31 @@ from pathlib import PurePath
 
 from ...bags.provenance import parameters_with
 
-NOT_TOLD = "not told"
+UNKNOWN = "not told"
 
 
 def facts(report_data):
     """Return what was run as pairs of words; without speeds that cannot be had, as the notes say."""
     found = report_data.analysis
     words = {
-        "road": _road(report_data) or NOT_TOLD,
-        "control law": _told(report_data, "law").get("law", NOT_TOLD),
+        "road": _road(report_data) or UNKNOWN,
+        "control law": _parameters_with(report_data, "law").get("law", UNKNOWN),
         "speed": _speed(report_data),
         "engine": "" if isnan(found.engine_speed) else f"{found.engine_speed:.5g} r/min",
         "length": f"{found.duration:.6g} s; {found.measured:.6g} s count, after {found.settle:.3g} s of settling",
         "sensors": f"{found.rate:.6g} Hz; RMS values from {found.band[0]:g} to {found.band[1]:g} Hz",
         "bag": found.bag,
     }
-    return [(name, told) for name, told in words.items() if told]
+    return [(name, known) for name, known in words.items() if known]
 
 
 def headline(report_data):
     """Return the run in one line, by the bag's name where it tells nothing."""
-    found, road, law = report_data.analysis, _told(report_data, "road_class"), _told(report_data, "law")
+    found, road, law = (
+        report_data.analysis,
+        _parameters_with(report_data, "road_class"),
+        _parameters_with(report_data, "law"),
+    )
     words = [f"class {road['road_class']}"] if road else []
     words += [] if isnan(found.speed) else [f"{found.speed:.3g} m/s"]
     words += [f"law {law['law']}"] if law else []
@@ -34,17 +38,19 @@ def headline(report_data):
     return ", ".join([*(words or names([found.bag])), f"{found.duration:.6g} s"])
 
 
-def _told(report_data, parameter):
+def _parameters_with(report_data, parameter):
     return parameters_with(report_data.provenance, parameter)[1]
 
 
 def _road(report_data):
-    told = _told(report_data, "road_class")
-    return ", ".join(f"{word} {told[key]}" for word, key in (("class", "road_class"), ("seed", "seed")) if key in told)
+    known = _parameters_with(report_data, "road_class")
+    return ", ".join(
+        f"{word} {known[key]}" for word, key in (("class", "road_class"), ("seed", "seed")) if key in known
+    )
 
 
 def _speed(report_data):
-    found, simulator = report_data.analysis, _told(report_data, "engine_speed")
+    found, simulator = report_data.analysis, _parameters_with(report_data, "engine_speed")
     had = f"{found.speed:.3g} m/s, standard deviation {found.speed_deviation:.2g} m/s"
     words = [] if isnan(found.speed) else [had]
     words += [f"wanted {simulator['speed']} m/s"] if "speed" in simulator else []

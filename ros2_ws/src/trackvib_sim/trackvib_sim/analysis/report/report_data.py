@@ -8,9 +8,8 @@ from scipy.signal import ShortTimeFFT
 from scipy.signal.windows import hann
 
 from ...numerics.units import NANO
-from ..numbers import SIDES, Analysis
-from ..segments import BLOCK, blocks
-from ..summary import AXES, SENSORS
+from ..numbers import AXES, SENSORS, SIDES, Analysis
+from ..stamps import BLOCK, blocks
 from .thinning import thinned
 
 WINDOW = 0.5  # s of a spectrogram: bins of 2 Hz

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from ..summary import AXES, SENSORS
+from ..numbers import AXES, SENSORS
 from . import bag_figures, comparison_figures, comparison_tables, spectrogram_figures, tables
 from .differences import differing
 from .thinning import MOST
@@ -129,7 +129,7 @@ def tiles(analysis):
     chassis, powertrain = (analysis.sensors[sensor] for sensor in ("chassis", "powertrain"))
     found = [(f"powertrain {axis}, RMS", powertrain[axis].rms, chassis[axis].rms) for axis in reversed(AXES)]
     found.append(("powertrain z, weighted (Wk)", powertrain["z"].rms_weighted, chassis["z"].rms_weighted))
-    told = [
+    tiles = [
         (words, tables.number(value, 3), "m/s²", f"{tables.change(value, first)} against the chassis")
         for words, value, first in found
     ]
@@ -137,8 +137,8 @@ def tiles(analysis):
         energy = sum(mount.energy_dissipated for mount in analysis.mounts.values())
         power = sum(mount.power_dissipated for mount in analysis.mounts.values())
         remark = f"{tables.number(power, 3)} W on average"
-        told.append(("dissipated in both mounts", tables.number(energy, 3), "J", remark))
-    return told
+        tiles.append(("dissipated in both mounts", tables.number(energy, 3), "J", remark))
+    return tiles
 
 
 def _about_histories(analyses, grey):

@@ -3,7 +3,7 @@
 import numpy as np
 import plotly.graph_objects as go
 
-from ..summary import SENSORS
+from ..numbers import SENSORS
 from .figure_style import AXIS_NAMES, plain, styled
 
 RANGE = 50.0  # dB below the greatest level of all that are told apart

@@ -4,8 +4,7 @@ from dataclasses import fields
 from math import isfinite
 from typing import NamedTuple
 
-from ..numbers import AxisNumbers
-from ..summary import AXES, SENSORS
+from ..numbers import AXES, SENSORS, AxisNumbers
 
 WORDS = {
     "rms": "RMS, band-limited",

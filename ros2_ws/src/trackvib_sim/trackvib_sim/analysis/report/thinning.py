@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..segments import BLOCK, blocks
+from ..stamps import BLOCK, blocks
 
 MOST = 8000  # points of a line, more than any screen has columns
 

@@ -1,6 +1,6 @@
 """Natural frequencies and undamped modes of a linearised tree, by sweeps of the transfer matrix method.
 
-Frequencies come from bisection on the counting theorem (`linear_sweep.count_below`), so that none is missed and
+Frequencies come from bisection on the counting theorem (`sweep.count_below`), so that none is missed and
 multiple ones are found as often as they occur. Modes come from inverse iteration, which takes one sweep a step and also
 finds modes in which the root rests (derived in docs/method.md).
 """

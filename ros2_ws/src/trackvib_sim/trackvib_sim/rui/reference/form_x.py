@@ -99,7 +99,7 @@ def form_x_transfer(transfer):
 def form_x(
     bodies: Sequence[Body], state: TreeState, loads: Loads, gravity: Sequence[float] = (0.0, 0.0, -9.81)
 ) -> Accelerations:
-    """Return the `Accelerations` of a table by Form X; parameters as of `overall.overall_transfer`.
+    """Return the `Accelerations` of a table by Form X; parameters as of `form_a.overall_transfer`.
 
     Examples
     --------

@@ -9,7 +9,7 @@ velocity-dependent terms and hinge torque. Springs, dampers, contacts and drives
 tip-to-root sweep (`riccati`) adds what each branch hands on. So loads hold for one evaluation: the sweep uses them up.
 
 x counts from free fall along the present motion: the acceleration that the body would have if neither the root nor any
-hinge accelerated (`kinematics.DRIFT`), and that of gravity, are taken off. Nothing but s depends on velocities then.
+hinge accelerated (`MotionOffset.DRIFT`), and that of gravity, are taken off. Nothing but s depends on velocities then.
 """
 
 from enum import IntEnum

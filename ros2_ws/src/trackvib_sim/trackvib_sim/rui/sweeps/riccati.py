@@ -1,9 +1,9 @@
 """Riccati form of the Rui method: the accelerations of a whole tree in two sweeps [Rui2020].
 
-The forward sweep gathers S and s of the cuts (`cuts`) from the tips to the root, where the free end (f = 0) gives the
-root's acceleration; the backward sweep hands accelerations out to the tips. -S is the articulated-body inertia, -s the
-articulated bias force, so the cost is O(n) and the pivot of a hinge, minus the inertia seen at its axis, is never zero
-for bodies with mass and inertia. The wrench in any hinge follows from its cut (`hinge_wrench`).
+The forward sweep gathers S and s of the cuts (`articulated`) from the tips to the root, where the free end (f = 0)
+gives the root's acceleration; the backward sweep hands accelerations out to the tips. -S is the articulated-body
+inertia, -s the articulated bias force, so the cost is O(n) and the pivot of a hinge, minus the inertia seen at its
+axis, is never zero for bodies with mass and inertia. The wrench in any hinge follows from its cut (`hinge_wrench`).
 """
 
 from enum import IntEnum
@@ -31,7 +31,7 @@ class ResponseOffset(IntEnum):
 
 
 class Response(NamedTuple):
-    """What the sweeps find: how bodies accelerate, counted as in `cuts` (add drift and gravity for the whole)."""
+    """What the sweeps find: how bodies accelerate, counted as in `Cuts` (add drift and gravity for the whole)."""
 
     lanes: tuple
     cells: np.ndarray  # (blocks, RESPONSE W)

@@ -2,13 +2,12 @@
 
 import re
 from math import exp, log
-from pathlib import Path
 from typing import Annotated, Literal
 
-import yaml
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from ...vehicle.vehicle_file import parse_vehicle
+from ...yaml_text import YamlTextError, read_text, validated
 from .vehicle_text import calibrated_vehicle_text
 
 DIGITS = 4  # of every value that is tried, so that what the file says is what was run
@@ -122,13 +121,9 @@ def read_plan(path, vehicle_text, given):
         The file cannot be read, is not a plan, or does not go with the vehicle file.
     """
     try:
-        plan = Plan.model_validate(yaml.safe_load(Path(path).read_text(encoding="utf-8")))
-    except (OSError, UnicodeDecodeError) as error:
-        raise PlanError(f"calibration plan {str(path)!r} cannot be read: {error}") from None
-    except yaml.YAMLError as error:
-        raise PlanError(f"{path}: not a YAML file: {error}") from None
-    except ValidationError as error:
-        raise PlanError("\n".join(_sentence(path, each) for each in error.errors())) from None
+        plan = validated(Plan, read_text(path, "calibration plan"), str(path))
+    except YamlTextError as error:
+        raise PlanError(str(error)) from None
     for row in plan.rows:
         if row not in given:
             known = ", ".join(f"[{road_class}, {speed:g}]" for road_class, speed in given)
@@ -142,11 +137,3 @@ def read_plan(path, vehicle_text, given):
         except ValueError as error:
             raise PlanError(f"{path}: {error}") from None
     return plan
-
-
-def _sentence(path, error):
-    item = ".".join(str(part) for part in error["loc"])
-    reason = error["msg"].removeprefix("Value error, ")
-    if error["type"] in ("missing", "value_error"):
-        return f"{path}: {item}: {reason}" if item else f"{path}: {reason}"
-    return f"{path}: {item or 'the whole file'} is {error['input']!r}: {reason}"

@@ -3,9 +3,9 @@
 from pathlib import Path
 
 from dask.system import CPU_COUNT
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
+from ...console import Description, Terminal
 from ...data import calibration_plan_file, default_vehicle_file, paper_table_file
 from ...vehicle.vehicle_file import parse_vehicle, read_vehicle
 from ..case_store import program, text_hash, whole_file
@@ -33,25 +33,25 @@ def run_calibrate(plan_file, vehicle_file, generations, scheduler, out):
     generations : int or None
         How many the search has in all, with those done earlier; None for the plan's number.
     scheduler : str or None
-        As `farm.farm` takes it.
+        As `workers.workers` takes it.
     out : path-like
 
     Raises
     ------
-    PlanError, VehicleFileError, HistoryError, FarmError, OSError
+    PlanError, VehicleFileError, HistoryError, WorkersError, OSError
         Plan, vehicle file or the folder cannot be used, or nothing can run.
     """
     vehicle, text = read_vehicle(vehicle_file or default_vehicle_file())
     given = read_table(paper_table_file())
     plan = read_plan(plan_file or calibration_plan_file(), text, given)
     paper = {row: given[row] for row in plan.rows}
-    folder, console = Path(out), Console(highlight=False)
+    folder, console = Path(out), Terminal()
     folder.mkdir(parents=True, exist_ok=True)
     key = _key(text, plan, paper)
     history, around = (
         History(folder / name, key, plan.items, list(paper)) for name in ("history.csv", "sensitivity_runs.csv")
     )
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    columns = (Description(), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with workers(scheduler, CPU_COUNT) as client, Progress(*columns, console=console) as progress:
         candidates = Candidates(client, text, plan, cases(paper, plan.seeds), paper)
         start = plan.values(plan.shares([parameter.of(vehicle) for parameter in plan.parameters]))

@@ -6,6 +6,8 @@ import re
 import numpy as np
 import yaml
 
+from ...yaml_text import compose
+
 _WITHIN = re.compile(r"(^|; )(\[\d+\] )?within \S+ to [^\s;]+")
 
 
@@ -25,7 +27,7 @@ def calibrated_vehicle_text(text, parameters, values):
         The file has no such item.
     """
     edits, by_quantity = [], {}
-    root = yaml.compose(text)
+    root = compose(text, "vehicle file")
     for parameter, value in zip(parameters, values, strict=True):
         quantity = _quantity(root, parameter)
         by_quantity.setdefault(parameter.quantity, (quantity, []))[1].append(parameter)

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import mr_mount_controller
 from mr_mount_controller.laws import find_law, known_laws
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 from rich.table import Table
 
+from ...console import Description, Terminal
 from ...data import default_vehicle_file
 from ...vehicle.vehicle_file import read_vehicle
 from ..case_store import CaseStore, whole_file
@@ -31,26 +31,26 @@ def run_controllers(laws, scenarios, seeds, vehicle_file, scheduler, out):
     laws : sequence of str, or None
         As `find_law` takes them; None for all that are known.
     scenarios : sequence of str
-        Names in `controlled.SCENARIOS`.
+        Names in `scenario.SCENARIOS`.
     seeds : int
         Number of runs a scenario that varies, each with its own road and track phase.
     vehicle_file, scheduler, out
-        As `table1.perform` takes them.
+        As `table1.run_table1` takes them.
 
     Raises
     ------
-    FarmError, ParameterError, VehicleFileError, OSError
+    WorkersError, ParameterError, VehicleFileError, OSError
         Nothing can run, there is no such law, the vehicle file or the folder cannot be used.
     """
     laws = [name for name in laws or known_laws() if name != PASSIVE]
     classes = [find_law(name) for name in laws]
     path = Path(vehicle_file or default_vehicle_file())
     vehicle, text = read_vehicle(path)
-    folder, console = Path(out), Console(highlight=False)
+    folder, console = Path(out), Terminal()
     store = CaseStore(folder / "cases", text + controllers(classes), ControlCase, ControlResult)
     if store.foreign:
         console.print(f"{store.foreign} runs in {folder} are of another vehicle or version and are not used")
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    columns = (Description(), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console) as progress:
         found = run_missing(vehicle, cases(laws, scenarios, seeds), store, scheduler, progress, "runs", control)
     rows = table_rows(found)

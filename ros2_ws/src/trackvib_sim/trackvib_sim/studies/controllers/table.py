@@ -57,7 +57,7 @@ class Verdict(NamedTuple):
 
 
 def table_rows(found):
-    """Return the rows of a dict of cases and results (`controlled.ControlCase`, `controlled.ControlResult`)."""
+    """Return the rows of a dict of cases and results (`scenario.ControlCase`, `scenario.ControlResult`)."""
     by_row, order = {}, list(SCENARIOS)
     # not in the order in which runs were done: the table must not depend on it
     for case in sorted(found, key=lambda c: (order.index(c.scenario), c.law != PASSIVE, c.law, c.current, c.seed)):

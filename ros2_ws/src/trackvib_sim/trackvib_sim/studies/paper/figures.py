@@ -3,10 +3,10 @@
 from pathlib import Path
 
 import numpy as np
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TimeRemainingColumn
 
-from ...analysis.summary import SENSORS
+from ...analysis.numbers import SENSORS
+from ...console import Description, Terminal
 from ...data import default_vehicle_file
 from ...road.iso8608 import FADE, Iso8608Road
 from ...simulation.simulation import RunFailed
@@ -31,16 +31,16 @@ def run_figures(out, scheduler):
 
     Raises
     ------
-    FarmError, OSError
+    WorkersError, OSError
         As workers and folder do.
     ValueError
         The case that is drawn has left the valid range.
     """
     vehicle, text = read_vehicle(default_vehicle_file())
-    folder, console = Path(out), Console(highlight=False)
+    folder, console = Path(out), Terminal()
     store = CaseStore(folder / "cases", text)
     cases = [Case(road_class, speed, SEED, TRACK_PHASE) for road_class in CLASSES for speed in SPEEDS]
-    columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
+    columns = (Description(), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console) as progress:
         found = run_missing(vehicle, cases, store, scheduler, progress, "all classes and speeds")
         tasks = {solver: progress.add_task(f"{case_in_words(SHOWN)}, {solver}", total=1.0) for solver in SOLVERS}

@@ -4,7 +4,7 @@ from itertools import product
 
 import numpy as np
 
-from ...analysis.summary import SENSORS
+from ...analysis.numbers import SENSORS
 from ...analysis.vibration import psd
 from ..case import BAND, GOOD, MEASURING, RATES
 from .paper_figures import AXES, VERTICAL

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...analysis.summary import SENSORS
+from ...analysis.numbers import SENSORS
 from ...analysis.vibration import rms
 from ...rui.state import Loads
 from ...rui.sweeps.articulated import CutOffset, new_cuts, open_cuts

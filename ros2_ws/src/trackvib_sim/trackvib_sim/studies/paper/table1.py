@@ -4,10 +4,10 @@ from math import sqrt
 from pathlib import Path
 
 import numpy as np
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 from rich.table import Table
 
+from ...console import Description, Terminal
 from ...data import default_vehicle_file, paper_table_file
 from ...vehicle.vehicle_file import read_vehicle
 from ..case import BAND, GOOD, Case
@@ -32,22 +32,22 @@ def run_table1(classes, speeds, seeds, vehicle_file, scheduler, out):
     vehicle_file : path-like or None
         None for the vehicle that comes with the package.
     scheduler : str or None
-        As `farm.farm` takes it.
+        As `workers.workers` takes it.
     out : path-like
 
     Raises
     ------
-    FarmError, VehicleFileError, OSError
+    WorkersError, VehicleFileError, OSError
         Nothing can run, the vehicle file or the folder cannot be used.
     """
     path = Path(vehicle_file or default_vehicle_file())
     vehicle, text = read_vehicle(path)
     paper = read_table(paper_table_file())
-    folder, console = Path(out), Console(highlight=False)
+    folder, console = Path(out), Terminal()
     store = CaseStore(folder / "cases", text)
     if store.foreign:
         console.print(f"{store.foreign} runs in {folder} are of another vehicle or version and are not used")
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    columns = (Description(), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console) as progress:
         found = run_missing(vehicle, cases(classes, speeds, seeds), store, scheduler, progress, "runs")
     rows = table_rows(found)

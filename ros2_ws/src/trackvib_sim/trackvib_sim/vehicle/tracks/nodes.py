@@ -8,6 +8,9 @@ Nodes have numbers 1 to n. Cells 0 and n + 1 repeat nodes n and 1, so that neigh
 the ends of the chain. Quantity q of node i stands in cell q STRIDE + i: STRIDE is known to the compiler, which
 therefore knows that quantities do not overlap and makes vector instructions of the loops over nodes. It is an odd
 number of cache lines, because quantities an even number apart would evict each other from the cache.
+
+The loops are unrolled by hand, component by component: a tidy `add_links` over small vectors was measured 2.7 times
+slower.
 """
 
 from enum import IntEnum

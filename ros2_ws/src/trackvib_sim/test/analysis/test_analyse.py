@@ -6,10 +6,12 @@ import json
 import numpy as np
 import pytest
 from pyarrow import parquet
-from trackvib_sim.analysis.bag_analysis import analyse, settling_of
+from trackvib_sim.analysis.analyse import analyse
 from trackvib_sim.analysis.bag_tables import rows, write_tables
+from trackvib_sim.analysis.picture_data import prepare
 from trackvib_sim.analysis.report.report_data import build_report_data
-from trackvib_sim.analysis.summary import TooShort, prepare, summarise
+from trackvib_sim.analysis.segments import TooShort, settling_of
+from trackvib_sim.analysis.summary import summarise
 from trackvib_sim.analysis.vibration import rms
 
 from .made_recordings import MS, made_recording
@@ -33,7 +35,7 @@ def test_summary_and_picture_show_the_same_levels():
 
 @pytest.mark.property
 def test_no_number_is_taken_across_a_gap():
-    """After a gap both sensors lie 100 m/s^2 higher: each level is that of its stretch, and the gap is told."""
+    """After a gap both sensors lie 100 m/s^2 higher: each level is that of its segment, and the gap is told."""
     milliseconds = np.append(np.arange(1, 10_001), np.arange(12_001, 22_001))
     noise = np.random.default_rng(4).normal(size=(20_000, 3))
     noise[10_000:] += 100.0

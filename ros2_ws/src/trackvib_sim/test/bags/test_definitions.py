@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from trackvib_sim.bags.cdr_layout import LayoutError, find_layout, type_store
+from mr_mount_controller.node_base.cdr import LayoutError, check, find_layout
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from trackvib_sim.bags.definitions import Definition
 
 NAME = "some_msgs/msg/Mixed"
 DEFINITION = f"""
@@ -19,7 +21,9 @@ MSG: some_msgs/Inner
 uint8 mark
 float64[3] values
 """
-STORE = type_store(NAME, "ros2msg", DEFINITION.encode())
+STORE = get_typestore(Stores.EMPTY)
+STORE.register(get_types_from_msg(DEFINITION, NAME))
+MIXED = Definition(NAME, "ros2msg", DEFINITION.encode())
 WANTED = {"flag": (), "pairs.0.values": (3,), "pairs.1.values": (3,), "small": (), "large": ()}
 
 
@@ -42,7 +46,7 @@ def test_numbers_stand_where_rosbags_writes_them(name, counts, seed, little_endi
     """Whatever text and sequence stand before them, which move and align them anew."""
     values = np.random.default_rng(seed).normal(size=(2, 3))
     data = serialised(name, counts, values, little_endian)
-    layout = find_layout(STORE, NAME, data, WANTED)
+    layout = find_layout(MIXED.kind, data, WANTED)
     numbers = np.frombuffer(data, layout.numbers)[0]
     assert layout.size == len(data)
     assert (numbers["flag"], numbers["small"], numbers["large"]) == (True, 0.5, -(2**40))
@@ -55,7 +59,7 @@ def test_lengths_tell_messages_of_one_size_apart():
     values = np.ones((2, 3))
     first, second = serialised("abcd", [1, 2, 3, 4], values), serialised("abcdef", [1, 2, 3], values)
     assert len(first) == len(second)
-    layout = find_layout(STORE, NAME, first, WANTED)
+    layout = find_layout(MIXED.kind, first, WANTED)
     assert np.frombuffer(first, layout.lengths)[0] == layout.values
     assert np.frombuffer(second, layout.lengths)[0] != layout.values
 
@@ -66,19 +70,41 @@ def test_what_does_not_fit_is_refused():
     data = serialised("abc", [1], np.ones((2, 3)))
     for wanted in ({"missing": ()}, {"small": (2,)}, {"name": ()}):
         with pytest.raises(LayoutError, match=r"has \d numbers, must be"):
-            find_layout(STORE, NAME, data, wanted)
+            find_layout(MIXED.kind, data, wanted)
     with pytest.raises(LayoutError, match="not of one kind, one after the other"):
-        find_layout(STORE, NAME, data, {"pairs": (8,)})
+        find_layout(MIXED.kind, data, {"pairs": (8,)})
     for size in (4, 10, len(data) - 1):
         with pytest.raises(LayoutError, match="shorter than its definition"):
-            find_layout(STORE, NAME, data[:size], WANTED)
+            find_layout(MIXED.kind, data[:size], WANTED)
     for start in (b"", b"\x00\x07\x00\x00"):
         with pytest.raises(LayoutError, match="not plain CDR"):
-            find_layout(STORE, NAME, start + data[4 if start else len(data) :], WANTED)
+            find_layout(MIXED.kind, start + data[4 if start else len(data) :], WANTED)
     incomplete = DEFINITION.replace("MSG: some_msgs/Inner", "MSG: some_msgs/Other").encode()
-    with pytest.raises(LayoutError, match="field pairs.0 is a some_msgs/msg/Inner, which .* does not define"):
-        find_layout(type_store(NAME, "ros2msg", incomplete), NAME, data, WANTED)
+    with pytest.raises(LayoutError, match="field pairs is a some_msgs/msg/Inner, which .* does not define"):
+        Definition(NAME, "ros2msg", incomplete)
     with pytest.raises(LayoutError, match="is in 'protobuf', accepted are ros2msg, ros2idl"):
-        type_store(NAME, "protobuf", b"")
+        Definition(NAME, "protobuf", b"")
     with pytest.raises(LayoutError, match="cannot be read"):
-        type_store(NAME, "ros2msg", b"float64 = = 3 [")
+        Definition(NAME, "ros2msg", b"float64 = = 3 [")
+    with pytest.raises(LayoutError, match="field name is a wstring, which has no layout"):
+        Definition(NAME, "ros2idl", b"module some_msgs { module msg { struct Mixed { wstring name; }; }; };")
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("field", ["Mixed inner", "Mixed[] inner", "Mixed[2] inner\nMixed[3] other"])
+def test_a_message_that_holds_itself_is_refused(field):
+    """It has no end, and no place for what follows."""
+    with pytest.raises(LayoutError, match="definition of some_msgs/msg/Mixed is more than 50 deep"):
+        Definition(NAME, "ros2msg", field.encode())
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("claim", [6, 2**20, 2**32 - 1])
+@pytest.mark.parametrize(
+    "field", ["string text", "float64[] values", "string[] names", "Empty[] parts", "Empty[{}] parts"]
+)
+def test_lengths_are_borne_out_by_bytes(field, claim):
+    """A text or sequence that claims more than there is is refused before anybody makes room for it."""
+    text = f"{field.format(claim)}\n{'=' * 80}\nMSG: some_msgs/Empty\n".encode()
+    with pytest.raises(LayoutError, match="says: [a-z.]+ takes [0-9]+ bytes, [0-9]+ are left"):
+        check(Definition(NAME, "ros2msg", text).kind, b"\0\1\0\0" + claim.to_bytes(4, "little") + b"a")

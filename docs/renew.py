@@ -1,0 +1,133 @@
+"""Renews what the documents take from code and commands.
+
+    ./trackvib exec -- python docs/renew.py [DOCUMENT ...]
+
+renews README.md and docs/*.md, or the documents given. It makes anew what stands between `<!-- KIND of: SOURCE -->` and
+`<!-- end -->`: a `table` of `code_tables.py` by its name, the `output` of a command in a fence, or the `picture` that a
+command leaves under the name that the document shows. `tests/test_documents.py` and `tests/test_printed_output.py` fail
+where the document has something else.
+"""
+
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import NamedTuple
+
+from code_tables import TABLES
+
+ROOT = Path(__file__).resolve().parents[1]
+MARKED = re.compile(r"<!-- (table|output|picture) of: (.+?) -->\n(.*?)<!-- end -->\n", re.DOTALL)
+TIME_LIMIT = 600  # s, for a command that hangs
+
+
+class Block(NamedTuple):
+    """A part of a document that is made by a program."""
+
+    kind: str  # table, output or picture
+    source: str  # name of the table, or command
+    content: str
+
+
+def documents():
+    """Return the paths of all documents that may hold blocks."""
+    return [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+
+
+def blocks(text):
+    """Return the `Block`s of a document in their order.
+
+    Raises
+    ------
+    ValueError
+        A mark stands without the other one of its pair.
+    """
+    found = [Block(*match) for match in MARKED.findall(text)]
+    begins, ends = (len(re.findall(mark, text)) for mark in (r"<!-- (?:table|output|picture) of: ", r"<!-- end -->"))
+    if not begins == ends == len(found):
+        raise ValueError(f"{begins} marks begin a block and {ends} end one, must be pairs")
+    return found
+
+
+def markdown(rows):
+    """Return a table in Markdown; the first row is its head."""
+    head, *others = ([re.sub(r"[|<]", r"\\\g<0>", str(cell)) for cell in row] for row in rows)
+    return "".join(f"| {' | '.join(row)} |\n" for row in (head, ["---"] * len(head), *others))
+
+
+class Commands:
+    """Runs each command of the documents once, in a folder of its own below `top`."""
+
+    def __init__(self, top, **environment):
+        self._top = Path(top)
+        self._env = {**os.environ, "COLUMNS": "100", "TERM": "dumb", **environment}
+        self._done = {}
+
+    def run(self, command):
+        """Return what a command prints, without blanks at the ends of lines, and the folder in which it ran.
+
+        Raises
+        ------
+        ValueError
+            It fails.
+        """
+        if command not in self._done:
+            words = shlex.split(command)
+            if words[:2] == ["./trackvib", "exec"]:
+                words = words[words.index("--") + 1 :]
+            elif words[0] == "./trackvib":
+                words[0] = str(ROOT / "trackvib")
+            folder = self._top / str(len(self._done))
+            folder.mkdir()
+            done = subprocess.run(words, cwd=folder, env=self._env, capture_output=True, text=True, timeout=TIME_LIMIT)
+            if done.returncode:
+                raise ValueError(f"{command} ended with exit code {done.returncode}:\n{done.stdout}{done.stderr}")
+            self._done[command] = "".join(f"{line.rstrip()}\n" for line in done.stdout.splitlines()), folder
+        return self._done[command]
+
+
+def shown_picture(block, document):
+    """Return the path of the picture that a block of a document shows."""
+    return document.parent / re.search(r"]\((.+?)\)", block.content)[1]
+
+
+def made_picture(block, document, commands):
+    """Return the path of the picture that a block's command leaves under the name that the document shows."""
+    name = shown_picture(block, document).name
+    (path,) = commands.run(block.source)[1].rglob(name)
+    return path
+
+
+def renew(document, commands):
+    """Make every block of a document anew."""
+
+    def anew(match):
+        block = Block(*match.groups())
+        content = block.content
+        if block.kind == "table":
+            content = markdown(TABLES[block.source]())
+        elif block.kind == "output":
+            content = f"```text\n{commands.run(block.source)[0]}```\n"
+        else:
+            shutil.copyfile(made_picture(block, document, commands), shown_picture(block, document))
+        return f"<!-- {block.kind} of: {block.source} -->\n{content}<!-- end -->\n"
+
+    text = document.read_text(encoding="utf-8")
+    blocks(text)
+    document.write_text(MARKED.sub(anew, text), encoding="utf-8")
+
+
+def main():
+    """Renew documents."""
+    with tempfile.TemporaryDirectory() as top:
+        commands = Commands(top)
+        for document in [Path(word) for word in sys.argv[1:]] or documents():
+            renew(document, commands)
+
+
+if __name__ == "__main__":
+    main()

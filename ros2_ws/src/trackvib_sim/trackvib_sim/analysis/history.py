@@ -1,0 +1,36 @@
+"""Levels along a whole bag, settling included, in bins of equal length."""
+
+import numpy as np
+
+from .numbers import SENSORS, History
+from .stamps import BLOCK, blocks
+
+
+def build_history(recording, bins, levels):
+    """Return the `History` of a recording over `levels.Bins`, given the `Levels` by sensor."""
+    rms, weighted = zip(*(levels[sensor].history() for sensor in SENSORS), strict=True)
+    mounts, odometry = recording.mounts, recording.odometry
+    nothing = np.full((bins.count, 2), np.nan)
+    current, power, travel, speed = nothing, nothing, nothing, nothing[:, 0]
+    if mounts is not None:
+        current, power = (bin_means(bins, mounts.stamp, each)[0] for each in (mounts.current, mounts.dissipated_power))
+        travel = bin_means(bins, mounts.stamp, mounts.deflection[:, :, 2])[1]
+    if odometry is not None:
+        speed = bin_means(bins, odometry.stamp, odometry.speed[:, None])[0][:, 0]
+    by_sensor = (dict(zip(SENSORS, each, strict=True)) for each in (rms, weighted))
+    return History(bins.middle, *by_sensor, speed, current, power, travel)
+
+
+def bin_means(bins, stamp, values):
+    """Return mean and standard deviation (n, m) of columns (k, m) in each of `levels.Bins`."""
+    count = np.zeros(bins.count)
+    total, squares = np.zeros((2, bins.count, values.shape[1]))
+    for block in blocks(len(stamp), BLOCK):
+        within = np.array(values[block])
+        in_bin, sums = bins.sums(stamp[block], np.hstack((within, np.square(within))))
+        count += in_bin
+        total += sums[:, : within.shape[1]]
+        squares += sums[:, within.shape[1] :]
+    count = np.where(count > 0, count, np.nan)[:, None]
+    mean = total / count
+    return mean, np.sqrt(np.maximum(squares / count - mean**2, 0.0))

@@ -1,0 +1,44 @@
+"""What is wrong with a recording, in sentences."""
+
+import numpy as np
+
+from .iso2631 import LEAST_RATE
+from .segments import TOPICS
+from .stamps import BLOCK, blocks
+
+_WITHOUT = {  # what cannot be had of a bag without these topics
+    "mounts": "no numbers of the mounts",
+    "answers": "no demanded currents, and nobody knows which samples were answered",
+}
+
+
+def find_notes(recording, segments):
+    """Return what was found wrong with a recording and its `Segments`, and what cannot be had of it."""
+    notes = []
+    if not recording.complete:
+        notes.append("the bag was cut short; what there is of it counts (`trackvib bag repair` completes it)")
+    odd = {end: _not_finite(getattr(recording, part)) for part, end in TOPICS.items() if end in segments.timing}
+    for end, found in segments.timing.items():
+        missing = "1 sample is" if found.missing == 1 else f"{found.missing} samples are"
+        counts = {
+            f"gaps: {found.gap_count}, in which {missing} missing": found.gap_count,
+            f"samples within half a period of the one before: {found.repeated}": found.repeated,
+            f"samples older than the one before: {found.backward}": found.backward,
+            f"samples that are no numbers: {odd[end]}": odd[end],
+        }
+        notes += [f"{end}: {text}" for text, count in counts.items() if count]
+    if segments.rate < LEAST_RATE:
+        notes.append(
+            f"sampling rate is {segments.rate:g} Hz, below {LEAST_RATE:g} Hz: no weighted values of ISO 2631-1"
+        )
+    lacking = (part for part in _WITHOUT if getattr(recording, part) is None)
+    return notes + [f"no {TOPICS[part]} in the bag: {_WITHOUT[part]}" for part in lacking]
+
+
+def _not_finite(columns):
+    """Count the samples of some columns, the stamps first, with a value that is not finite."""
+    count = 0
+    for block in blocks(len(columns[0]), BLOCK):
+        parts = (column[block].reshape(len(column[block]), -1) for column in columns[1:])
+        count += int(np.count_nonzero(~np.logical_and.reduce([np.isfinite(part).all(axis=1) for part in parts])))
+    return count

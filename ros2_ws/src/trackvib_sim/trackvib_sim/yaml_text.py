@@ -1,0 +1,116 @@
+"""Reads YAML from outside: bounded in size and depth, plain data only, and what is wrong in one sentence an item.
+
+One loader for all: vehicle files, calibration plans, a bag's metadata and what its topics declare.
+"""
+
+import os
+from stat import S_ISREG
+
+import yaml
+from mr_mount_controller.node_base.plain_text import readable, shortened
+from pydantic import ValidationError
+
+LARGEST = 1 << 20  # bytes of a text
+DEEPEST = 50  # levels
+LONGEST_NUMBER = 100  # characters; a number to base 60 takes time with the square of them
+_LONGEST_REASON = 500  # characters
+_MOST_ERRORS = 20
+
+
+class YamlTextError(ValueError):
+    """A text that cannot be used; the message names file, item, value and what is accepted."""
+
+
+def read_text(path, what="file"):
+    """Return the text of a file; an ordinary one of at most `LARGEST` bytes in UTF-8.
+
+    Raises
+    ------
+    YamlTextError
+        It cannot be read, is a folder, a device or a pipe, too large, or no text; `what` says what it should be.
+    """
+    name = f"{what} {str(path)!r}"
+    try:
+        # a pipe that nobody writes to must not hold us up
+        with open(os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), "rb") as file:
+            if not S_ISREG(os.fstat(file.fileno()).st_mode):
+                raise YamlTextError(f"{name} cannot be read: it is no ordinary file")
+            data = file.read(LARGEST + 1)
+        if len(data) > LARGEST:
+            raise YamlTextError(f"{name} cannot be read: it has more than {LARGEST} bytes")
+        return data.decode()
+    except (OSError, UnicodeDecodeError, ValueError) as error:
+        if isinstance(error, YamlTextError):
+            raise
+        raise YamlTextError(f"{name} cannot be read: {getattr(error, 'strerror', None) or error}") from None
+
+
+def load(text, name):
+    """Return what a YAML text holds, as it stands.
+
+    Raises
+    ------
+    YamlTextError
+        It is not YAML, too large or too deep, or has aliases, of which a small text can make a huge one.
+    """
+    return _bounded(text, name, lambda: yaml.load(text, _Loader))  # noqa: S506, a safe one
+
+
+def compose(text, name):
+    """Return the root node of a YAML text, which tells where everything stands; raises as `load` does."""
+    return _bounded(text, name, lambda: yaml.compose(text, _Loader))
+
+
+def validated(model, text, name):
+    """Return what a YAML text describes, by a pydantic model; raises as `load` does, and where an item does not fit."""
+    try:
+        return model.model_validate(load(text, name))
+    except ValidationError as error:
+        errors = error.errors(include_url=False, include_context=False)
+    more = [f"{name}: and {len(errors) - _MOST_ERRORS} more items"] if len(errors) > _MOST_ERRORS else []
+    raise YamlTextError("\n".join(map(readable, [_sentence(name, each) for each in errors[:_MOST_ERRORS]] + more)))
+
+
+def _bounded(text, name, read):
+    if len(text) > LARGEST:
+        raise YamlTextError(f"{name}: has {len(text)} characters, accepted are {LARGEST}")
+    try:
+        return read()
+    # all but the first from tagged values that PyYAML does not check: impossible dates, `!!bool x`, `!!int ''`
+    except (yaml.YAMLError, ValueError, LookupError, AttributeError, OverflowError, TypeError) as error:
+        reason = shortened(" ".join(str(error).split()), _LONGEST_REASON)
+        raise YamlTextError(readable(f"{name}: not a YAML file: {reason}")) from None
+
+
+def _sentence(name, error):
+    item, value = shortened(".".join(map(str, error["loc"]))), shortened(repr(error["input"]))
+    reason = shortened(error["msg"].removeprefix("Value error, "), _LONGEST_REASON)
+    if error["type"] in ("model_type", "model_attributes_type"):
+        return f"{name}: {item or 'the whole file'} is {value}: must be a section with items"
+    if error["type"] in ("missing", "value_error"):
+        return f"{name}: {item}: {reason}" if item else f"{name}: {reason}"
+    return f"{name}: {item or 'the whole file'} is {value}: {reason}"
+
+
+class _Loader(yaml.SafeLoader):
+    """PyYAML's safe one, but without aliases, depths and long numbers."""
+
+    def __init__(self, stream):
+        super().__init__(stream)
+        self._depth = 0
+
+    def compose_node(self, parent, index):
+        if self.check_event(yaml.AliasEvent):
+            raise yaml.YAMLError(f"alias *{self.peek_event().anchor} is not accepted, write it out")
+        if self._depth == DEEPEST:
+            raise yaml.YAMLError(f"nested too deeply, accepted are {DEEPEST} levels")
+        self._depth += 1
+        node = super().compose_node(parent, index)
+        self._depth -= 1
+        return node
+
+    def compose_scalar_node(self, anchor):
+        node = super().compose_scalar_node(anchor)
+        if node.tag == "tag:yaml.org,2002:int" and len(node.value) > LONGEST_NUMBER:
+            raise yaml.YAMLError(f"a number of {len(node.value)} characters, accepted are {LONGEST_NUMBER}")
+        return node

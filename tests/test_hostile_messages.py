@@ -1,0 +1,180 @@
+"""One message never ends a node: what cannot be read or makes no sense is refused, said once, and the node goes on."""
+
+import math
+import re
+import signal
+from struct import pack_into
+
+import pytest
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import Vector3
+from mr_mount_controller.node_base.qos import LATCHED_QOS, LOOP_WRITER_QOS, ROAD_QOS
+from nav_msgs.msg import Odometry
+from rclpy.qos import QoSProfile
+from rclpy.serialization import deserialize_message, serialize_message
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import Imu
+from std_msgs.msg import String
+from trackvib_msgs.msg import CoilCurrent, RoadProfile
+from trackvib_sim.bags.raw_messages import RawMessage, raw_records
+from trackvib_sim.bags.reading import read_recording
+from trackvib_sim.nodes.messages import ImuMessage
+
+pytestmark = [pytest.mark.system, pytest.mark.slow(reason="real processes that are sent what nobody expects")]
+
+MS = 1_000_000  # ns
+MEMORY = 1_000_000  # kB that a node takes at most
+LOOP = (  # topic, a message, quality of service
+    ("chassis/imu", Imu(), LOOP_WRITER_QOS),
+    ("powertrain/imu", Imu(), LOOP_WRITER_QOS),
+    ("coil_current", CoilCurrent(), LOOP_WRITER_QOS),
+    ("road_profile", RoadProfile(left=[0.0] * 3, right=[0.0] * 3), ROAD_QOS),
+    ("odometry", Odometry(), LATCHED_QOS),
+    ("vehicle_description", String(data="text"), LATCHED_QOS),
+    ("/clock", Clock(), QoSProfile(depth=10)),
+    ("recorder/recorded", Time(), LATCHED_QOS),
+)
+
+
+def damaged(message):
+    """Return bytes that are no message of that type: cut, of another encoding, with lengths that nothing bears out."""
+    whole = bytearray(serialize_message(message))
+    cases = [b"", b"abc", bytes(whole[:4]), bytes(whole[:10]), b"\0\7\0\0" + whole[4:], bytes(len(whole))[:9]]
+    place = 4 if isinstance(message, String) else 12
+    if not isinstance(message, (Clock, Time)):
+        for claim in (len(whole), 2**24, 2**31, 2**32 - 1):
+            pack_into("<I", whole, place, claim)
+            cases.append(bytes(whole))
+    return cases
+
+
+def send_damaged(observer, topic, listeners):
+    """Publish damaged messages on a topic of the loop until every process that listens has refused some."""
+    message, qos = next((message, qos) for name, message, qos in LOOP if name == topic)
+    publisher = observer.node.create_publisher(type(message), topic, qos)
+
+    def all_refuse():
+        for data in damaged(message):
+            publisher.publish(data)
+        words = f"message on {publisher.topic_name} refused: message"
+        return all(words in process.output for process in listeners)
+
+    observer.wait_until(all_refuse)
+
+
+def assert_in_good_health(process):
+    """A process that is asked to end ends well; it has said once of each topic that it refuses messages."""
+    process.signal(signal.SIGINT)
+    assert process.wait() == 0, process.output
+    assert "Traceback" not in process.output
+    refused = re.findall(r"message on (\S+) refused", process.output)
+    assert len(refused) == len(set(refused)), process.output
+
+
+def assert_slim(process):
+    """A process that runs has never needed more memory than it should."""
+    with open(f"/proc/{process.pid}/status") as file:
+        assert int(re.search(r"VmHWM:\s+(\d+) kB", file.read())[1]) < MEMORY
+
+
+def test_loop_of_all_nodes(start_node, observer, tmp_path):
+    """Every answer still comes in time, every message is still recorded, and the simulator counts what it refused."""
+    road, controller = start_node("road_excitation"), start_node("controller", law="skyhook")
+    recorder = start_node("recorder", bag=tmp_path / "bag")
+    simulator = start_node("simulator", wait_for_recorder=True, answer_timeout=20.0)
+    simulator.wait_for("running")
+    for sensor in ("chassis/imu", "powertrain/imu"):
+        send_damaged(observer, sensor, [controller, recorder])
+    for topic in ("coil_current", "road_profile", "/clock"):
+        send_damaged(observer, topic, [simulator, recorder])
+    send_damaged(observer, "recorder/recorded", [simulator])
+    send_damaged(observer, "odometry", [road, recorder])
+    send_damaged(observer, "vehicle_description", [recorder])
+    observer.wait_until(lambda: int(observer.values.get("refused", 0)) >= 4)
+    time = float(observer.values["time"])
+    observer.wait_until(lambda: float(observer.values["time"]) > time + 0.5)
+    for process in (simulator, road, controller, recorder):
+        assert_slim(process)
+    for process in (simulator, road, controller, recorder):
+        assert_in_good_health(process)
+    recording = read_recording(tmp_path / "bag")
+    samples = recording.chassis.stamp
+    assert samples.tolist() == [k * MS for k in range(1, len(samples) + 1)]
+    assert len(recording.mounts.stamp) == len(samples) == len(recording.powertrain.stamp)
+    assert recording.diagnostics["silent_periods"] == "0"
+    assert abs(len(recording.answers.sample_stamp) - len(samples)) <= 1
+
+
+@pytest.mark.parametrize("seconds", [-1, -(2**31), 2**31 - 1])
+def test_recorder_keeps_an_absurd_stamp_as_it_came(start_node, observer, tmp_path, seconds):
+    """Among good ones; its time in the bag is that of the message before, and nothing is lost."""
+    publisher = observer.node.create_publisher(Imu, "chassis/imu", LOOP_WRITER_QOS)
+    recorder = start_node("recorder", bag=tmp_path / "bag", topics="[chassis/imu]")
+    recorder.wait_for("recording 1 topics")
+    imu, absurd = ImuMessage("imu"), Imu()
+    absurd.header.stamp.sec, absurd.header.frame_id = seconds, "absurd"
+    absurd.linear_acceleration = Vector3(x=math.nan, y=math.inf, z=-math.inf)
+    sent = [(k * MS, imu.fill(k * MS, (0.0, 0.0, 9.81), (0.0, 0.0, 0.0))) for k in range(1, 601)]
+    sent.insert(300, (300 * MS, bytes(serialize_message(absurd))))
+    for _, data in sent:
+        publisher.publish(data)
+    publisher.publish(b"")
+    recorder.wait_for("refused")
+    assert_in_good_health(recorder)
+    records = [record for record in raw_records(tmp_path / "bag") if isinstance(record, RawMessage) and record.message]
+    assert [(record.message.log_time, record.message.data) for record in records] == sent
+
+
+def test_road_node(start_node, observer):
+    """A place that is none is refused; a vehicle that stands somewhere else still gets its road."""
+    patches = observer.collect(RoadProfile, "road_profile", ROAD_QOS)
+    publisher = observer.node.create_publisher(Odometry, "odometry", LATCHED_QOS)
+    road = start_node("road_excitation")
+    observer.wait_until(publisher.get_subscription_count)
+    for position in (math.nan, math.inf, -math.inf, 1e300, -1e9):
+        odometry = Odometry()
+        odometry.pose.pose.position.x = position
+        publisher.publish(odometry)
+    road.wait_for("position.x is nan m, accepted is up to 1e+08 m either way")
+    odometry = Odometry()
+    odometry.header.stamp.sec = 1
+    odometry.pose.pose.position.x = 1000.0
+    publisher.publish(odometry)
+    observer.wait_until(lambda: any(deserialize_message(data, RoadProfile).start == 1000.0 for data in patches))
+    assert_in_good_health(road)
+
+
+def test_controller_takes_no_number_that_no_sensor_measures(start_node, observer):
+    """The pair that has one is as if it had not come; the next one is answered."""
+    answers = observer.collect(CoilCurrent, "coil_current", LOOP_WRITER_QOS)
+    outs = [observer.node.create_publisher(Imu, f"{part}/imu", LOOP_WRITER_QOS) for part in ("chassis", "powertrain")]
+    controller = start_node("controller", law="skyhook")
+    for out in outs:
+        observer.wait_until(out.get_subscription_count)
+    imu = ImuMessage("imu")
+    samples = [(1, 9.81), (2, math.nan), (3, math.inf), (4, 1e300), (5, 9.81)]
+    for stamp, force in samples:
+        for out in outs:
+            out.publish(imu.fill(stamp * MS, (0.0, 0.0, force), (0.0, 0.0, 0.0)))
+    answered = lambda: [deserialize_message(data, CoilCurrent).sample_stamp.nanosec // MS for data in answers]  # noqa: E731
+    observer.wait_until(lambda: answered() == [1, 5])
+    assert_in_good_health(controller)
+    assert "6 messages were refused" in controller.output
+
+
+def test_first_patch_of_another_road(start_node, observer):
+    """It does not fix the spacing; the road node's patches are driven on, and what is refused is said once."""
+    publisher = observer.node.create_publisher(RoadProfile, "road_profile", ROAD_QOS)
+    simulator = start_node("simulator")
+    observer.wait_until(publisher.get_subscription_count)
+    publisher.publish(RoadProfile(spacing=0.5, left=[0.0, 0.0], right=[0.0, 0.0]))
+    for k in range(1000):
+        publisher.publish(RoadProfile(start=0.1 * k, spacing=math.nan, left=[0.0, 0.0], right=[0.0, 0.0]))
+    observer.wait_until(lambda: int(observer.values.get("refused", 0)) > 10)
+    start_node("road_excitation")
+    start_node("controller")
+    observer.wait_for(state="running")
+    before = observer.values["refused"]
+    publisher.publish(RoadProfile(spacing=0.5, left=[0.0, 0.0], right=[0.0, 0.0]))
+    observer.wait_until(lambda: observer.values["refused"] != before)
+    assert_in_good_health(simulator)

@@ -1,0 +1,138 @@
+"""What README and docs/ show as printed is what the commands print; their Python blocks run."""
+
+import os
+import re
+import subprocess
+import sys
+from functools import partial
+
+import pytest
+from matplotlib.image import imread
+
+from .documents import DOCUMENTS, ROOT, renew
+
+# By what part a number may differ, beside one unit of its last digit. Contacts of the tracks amplify rounding, which is
+# another one on another kind of processor. With a current changed by 1e-12 levels differ by up to 4 %, the work on the
+# mounts by 16 % and what they store by as much of that work, and 8 % of the elements of a run's picture; on the road of
+# another seed 14 % of them.
+SCATTER = {"run": 0.1, "study": 0.1}
+SCATTER_OF_WORK = 0.2  # of the largest number in the account
+ALIKE, ALIKE_IN_SCATTER = 2e-4, 0.1  # part of a picture's elements that may differ
+OF_THE_MOMENT = ("finished", "runs ", "pace:", "left in", "picture")  # lines of progress, pace and places
+NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?%?")
+
+pytestmark = pytest.mark.system
+
+
+def shown(kind):
+    """Give all blocks of a kind in the documents, with their documents, as pytest's parameters."""
+    for path in renew.documents():
+        for block in renew.blocks(path.read_text(encoding="utf-8")):
+            if block.kind == kind:
+                yield pytest.param(block, path, id=block.source.removeprefix("./"))
+
+
+@pytest.fixture(scope="module")
+def commands(tmp_path_factory, domain):
+    """Each command runs once for all that the documents take from it."""
+    return renew.Commands(tmp_path_factory.mktemp("commands"), ROS_DOMAIN_ID=str(domain))
+
+
+def python(document):
+    """Return the Python blocks of a document but the README's controller, which has no end and a test of its own."""
+    blocks = re.findall(r"^```python\n(.*?)^```", document.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    return "\n".join(block for block in blocks if "rclpy.spin" not in block)
+
+
+def programs():
+    """Give the documents with Python in them as pytest's parameters."""
+    return (pytest.param(path, id=path.name) for path in DOCUMENTS if python(path))
+
+
+def compared(text):
+    """Return what is to be compared: lines without those of the moment and without the frames of tables."""
+    lines = (re.sub(r"[\u2500-\u257f\s]+", " ", line).strip() for line in text.splitlines())
+    return [line for line in lines if line and not line.startswith(("```", *OF_THE_MOMENT))]
+
+
+def scatter(block):
+    """Return by what part numbers of a block's command may differ."""
+    return SCATTER.get(block.source.split()[1], 0.0)
+
+
+def alike(shown, printed, scatter):
+    """Whether two lines have the same words, and numbers that differ by no more than they may.
+
+    Whole numbers count or choose and must be the same; parts in percent may differ by one.
+    """
+    if NUMBER.sub("#", shown) != NUMBER.sub("#", printed):
+        return False
+    old, new = ([float(each.rstrip("%")) for each in NUMBER.findall(line)] for line in (shown, printed))
+    allowed = [_rounding(each) for each in NUMBER.findall(shown)]
+    if scatter:
+        work = SCATTER_OF_WORK * max(map(abs, old), default=0.0)
+        allowed = [
+            unit + (work if shown.startswith("mounts:") else scatter * abs(number)) if unit else 0.0
+            for unit, number in zip(allowed, old, strict=True)
+        ]
+    return all(abs(a - b) <= most * (1.0 + 1e-9) for a, b, most in zip(old, new, allowed, strict=True))
+
+
+def _rounding(number):
+    if number.endswith("%"):
+        return 1.0
+    digits = len(number.partition(".")[2])
+    return 10.0**-digits if digits else 0.0
+
+
+@pytest.mark.slow(reason="a whole run in real processes, and a study of 27 drives")
+@pytest.mark.parametrize(("block", "document"), list(shown("output")))
+def test_output_is_what_the_command_prints(block, document, commands):
+    """The words are the same, and the numbers but for scatter; `python docs/renew.py` renews them."""
+    before, now = compared(block.content), compared(commands.run(block.source)[0])
+    assert len(before) > 3
+    for old, new in zip(before, now, strict=True):
+        assert alike(old, new, scatter(block)), f"the document has\n{old}\nand the command prints\n{new}"
+
+
+@pytest.mark.slow(reason="the same commands")
+@pytest.mark.parametrize(("block", "document"), list(shown("picture")))
+def test_picture_is_what_the_command_draws(block, document, commands):
+    """Picture elements are the same but for scatter, likewise."""
+    old, new = (
+        imread(path(block, document)) for path in (renew.shown_picture, partial(renew.made_picture, commands=commands))
+    )
+    assert old.shape == new.shape
+    different = (abs(old - new).max(axis=-1) > 0.1).mean()
+    assert different <= (ALIKE_IN_SCATTER if scatter(block) else ALIKE)
+
+
+@pytest.mark.parametrize(
+    ("shown", "printed", "scatter", "same"),
+    [
+        ("chassis 3.467 2.353", "chassis 3.567 2.353", 0.05, True),
+        ("chassis 3.467 2.353", "chassis 3.667 2.353", 0.05, False),
+        ("chassis 3.467 2.353", "chassis 3.468 2.353", 0.0, True),
+        ("chassis 3.467 2.353", "chassis 3.469 2.353", 0.0, False),
+        ("lost 0 of 10000", "lost 1 of 10000", 0.05, False),
+        ("whole heave 52%", "whole heave 53%", 0.0, True),
+        ("whole heave 52%", "whole pitch 52%", 0.0, False),
+        ("mounts: 342.1 J of work, +32.4 stored", "mounts: 288.0 J of work, -0.7 stored", 0.05, True),
+        ("mounts: 342.1 J of work, +32.4 stored", "mounts: 142.1 J of work, +32.4 stored", 0.05, False),
+    ],
+)
+def test_comparison_sees_what_differs(shown, printed, scatter, same):
+    """Words, counts and numbers beyond their scatter tell; rounding does not."""
+    assert alike(shown, printed, scatter) == same
+
+
+@pytest.mark.parametrize("document", list(programs()))
+def test_python_blocks_run(document, recorded_run, tmp_path):
+    """The blocks of a document, one after the other in one program."""
+    (tmp_path / "runs").mkdir()
+    (tmp_path / "runs" / "first").symlink_to(recorded_run)
+    (tmp_path / "program.py").write_text(python(document), encoding="utf-8")
+    paths = [str(ROOT / "docs" / "examples" / "my_controller"), os.environ.get("PYTHONPATH", "")]
+    env = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
+    done = subprocess.run([sys.executable, "program.py"], cwd=tmp_path, env=env, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
