@@ -13,21 +13,28 @@ from .commands.endings import fail, say
 from .commands.option_types import INTERRUPTED, FiniteRange, known_law
 from .commands.replay_cli import replay
 from .commands.study_cli import study
+from .commands.terminal import OutputLost, lasting_output
 from .road.iso8608 import CLASSES
 
 
 class _Verbs(click.Group):
-    """Ctrl-C at any moment ends a verb in one line, with the exit code that shells know it by."""
+    """Ctrl-C at any moment ends a verb in one line, with the exit code that shells know it by.
+
+    So does standard output that breaks off, once the verb's work is done.
+    """
 
     def invoke(self, context):
         try:
-            return super().invoke(context)
+            with lasting_output():
+                return super().invoke(context)
         except click.ClickException as error:
             error.message = readable(error.message)  # it may name a file
             raise
         except KeyboardInterrupt:
             say("interrupted")
             sys.exit(INTERRUPTED)
+        except OutputLost as error:
+            fail(error)
 
 
 @click.group(cls=_Verbs, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -37,7 +44,6 @@ def main():
     # background of a script would otherwise ignore Ctrl-C.
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, lambda *_: _interrupt())
-    sys.stdout.reconfigure(errors="replace")  # a terminal without the signs for square and box still gets the numbers
 
 
 def _interrupt():
@@ -102,11 +108,12 @@ def run(road_class, speed, duration, law, seed, one_process, out):
 )
 def modes(current, highest, out):
     """Print the standing vehicle's natural frequencies and damping, and draw its modes."""
-    from .commands.vehicle_modes import run_modes  # imported late, as above
+    from .commands.result_folder import CommandError  # imported late, as above
+    from .commands.vehicle_modes import run_modes
 
     try:
         run_modes(current, highest, out)
-    except (ValueError, OSError) as error:
+    except (CommandError, ValueError, OSError) as error:
         fail(error)
 
 
@@ -122,11 +129,12 @@ def modes(current, highest, out):
 )
 def vehicle(vehicle, out):
     """Print the vehicle's parameters with their sources, and draw it to scale."""
-    from .commands.vehicle_drawing import run_vehicle  # imported late, as above
+    from .commands.result_folder import CommandError  # imported late, as above
+    from .commands.vehicle_drawing import run_vehicle
 
     try:
         run_vehicle(vehicle, out)
-    except (ValueError, OSError) as error:
+    except (CommandError, ValueError, OSError) as error:
         fail(error)
 
 

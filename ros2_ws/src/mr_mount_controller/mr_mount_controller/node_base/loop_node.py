@@ -2,7 +2,6 @@
 
 import signal
 import sys
-import time
 
 import rclpy
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
@@ -14,12 +13,13 @@ from rclpy.signals import SignalHandlerOptions
 
 from .listener import Listener
 from .parameters import ParameterError
+from .patience import wait_until
 from .plain_text import readable
 from .shared_memory import remove_unfinished_segments
 
 # rclpy declares these itself on every node
 _RCLPY_PARAMETERS = ("use_sim_time", "start_type_description_service", "qos_overrides")
-_TICK = 0.1  # s, after which a waiting node looks at its stop flag
+_TICK = 0.1  # s, after which a node that has nothing to do looks at its stop flag
 
 
 class NodeError(RuntimeError):
@@ -73,13 +73,8 @@ class LoopNode(Node):
 
     def spin_until(self, condition, timeout=None):
         """Serve callbacks until `condition()`; returns whether it came true before a stop or the timeout [s]."""
-        end = None if timeout is None else time.monotonic() + timeout
-        while not condition():
-            left = _TICK if end is None else min(_TICK, end - time.monotonic())
-            if left <= 0.0 or self.stopping():
-                return condition()
-            self.spin_once(left)
-        return True
+        wait_until(lambda: condition() or self.stopping(), self.spin_once, timeout)
+        return condition()
 
     def prepare(self, spin, stopping):
         """Hand in the executor's spin function and the stop flag."""

@@ -10,6 +10,7 @@ ODOMETRY = "odometry"
 ROAD_PROFILE = "road_profile"
 VEHICLE_DESCRIPTION = "vehicle_description"
 RECORDED = "recorder/recorded"
+RECORDED_ANSWERS = "recorder/recorded_answers"
 CLOCK = "/clock"
 DIAGNOSTICS = "/diagnostics"
 
@@ -82,7 +83,14 @@ TOPICS = (
         RECORDED_TYPE,
         "recorder",
         "as it writes",
-        "Time up to which the bag holds everything.",
+        "Time up to which the bag holds every sample: of several topics, the slowest.",
+    ),
+    Topic(
+        RECORDED_ANSWERS,
+        RECORDED_TYPE,
+        "recorder",
+        "as it writes",
+        "Time of the latest sample whose answer the bag holds.",
     ),
     Topic(CLOCK, CLOCK_TYPE, "simulator", "100 Hz", "Simulated time."),
     Topic(

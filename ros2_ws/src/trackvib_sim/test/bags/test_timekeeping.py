@@ -5,7 +5,7 @@ from builtin_interfaces.msg import Time
 from hypothesis import given
 from hypothesis import strategies as st
 from rclpy.serialization import serialize_message
-from trackvib_sim.bags.timekeeping import Timekeeping
+from trackvib_sim.bags.timekeeping import END_OF_TIME, Timekeeping
 
 IMU, MOUNTS = "sensor_msgs/msg/Imu", "trackvib_msgs/msg/MountState"
 CLOCK, ANSWER = "rosgraph_msgs/msg/Clock", "trackvib_msgs/msg/CoilCurrent"
@@ -17,11 +17,18 @@ def stamped(stamp):
     return serialize_message(Time(sec=stamp // 10**9, nanosec=stamp % 10**9))
 
 
+def recorded(*type_names):
+    times = Timekeeping()
+    for type_name in type_names:
+        times.announce(type_name)
+    return times
+
+
 @pytest.mark.property
 @given(st.lists(st.sampled_from([0, 1, 2]), min_size=1, max_size=60))
 def test_progress_is_that_of_the_slowest_topic(order):
     """In whatever order the topics' messages come, all that every topic has up to `complete_until` has come."""
-    times, count = Timekeeping(), [0, 0, 0]
+    times, count = recorded(IMU, MOUNTS, CLOCK), [0, 0, 0]
     for which in order:
         count[which] += 1
         topic, type_name = PERIODS[which]
@@ -32,8 +39,9 @@ def test_progress_is_that_of_the_slowest_topic(order):
 
 
 def test_without_topics_of_every_period():
-    """The latest of all stamps counts."""
-    times = Timekeeping()
+    """Nothing of them is missing, ever; as long as none has come, the latest of all stamps counts."""
+    assert recorded(CLOCK).complete_until == END_OF_TIME
+    times = recorded(CLOCK, IMU)
     assert times.complete_until == 0
     times.add("/clock", CLOCK, True, stamped(5 * MS))
     assert times.complete_until == 5 * MS
@@ -41,11 +49,22 @@ def test_without_topics_of_every_period():
 
 def test_answers_do_not_hold_the_progress():
     """A controller may be silent, so its answers do not count, nor do their stamps make an epoch."""
-    times = Timekeeping()
+    times = recorded(IMU, ANSWER)
     times.add("/chassis/imu", IMU, True, stamped(7 * MS))
     assert times.add("/coil_current", ANSWER, True, stamped(2 * MS)) == 2 * MS
     assert times.add("/coil_current", ANSWER, True, stamped(1 * MS)) == 1 * MS
-    assert times.complete_until == 7 * MS
+    assert times.complete_until == 7 * MS and times.answered_until == 2 * MS
+
+
+def test_progress_of_the_answers():
+    """That of the latest one, at most up to the samples; without answers there is nothing to wait for."""
+    assert recorded(IMU).answered_until == END_OF_TIME
+    times = recorded(IMU, ANSWER)
+    assert times.answered_until == 0
+    times.add("/coil_current", ANSWER, True, stamped(9 * MS))
+    assert times.answered_until == 0
+    times.add("/chassis/imu", IMU, True, stamped(5 * MS))
+    assert times.answered_until == 5 * MS
 
 
 @pytest.mark.parametrize(("type_name", "same_again"), [(IMU, True), (MOUNTS, True), (CLOCK, False)])

@@ -3,7 +3,7 @@
 import errno
 
 import pytest
-from trackvib_sim.commands.result_folder import CommandError, all_or_nothing
+from trackvib_sim.commands.result_folder import CommandError, all_or_nothing, whole_or_none
 
 pytestmark = pytest.mark.property
 
@@ -30,3 +30,20 @@ def test_nothing_half_done_is_left(tmp_path, error):
         if isinstance(error, OSError):
             assert str(raised.value) == f"'{place}' cannot be written: No space left"
     assert [each.name for each in tmp_path.iterdir()] == ["old"] and not any((tmp_path / "old").iterdir())
+
+
+@pytest.mark.parametrize("old", [False, True])
+def test_files_take_their_names_together(tmp_path, old):
+    """Only when all are whole; what was there before stays until then."""
+    files = [tmp_path / name for name in ("a.txt", "b.txt")]
+    if old:
+        files[0].write_text("old")
+    with pytest.raises(CommandError, match="No space left"), whole_or_none(*files) as (first, _):
+        first.write_text("half")
+        raise OSError(errno.ENOSPC, "No space left")
+    assert [each.read_text() for each in tmp_path.iterdir()] == ["old"] * old
+    with whole_or_none(*files) as parts:
+        for part in parts:
+            part.write_text("new")
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["a.txt", "b.txt"]
+    assert files[0].read_text() == "new"

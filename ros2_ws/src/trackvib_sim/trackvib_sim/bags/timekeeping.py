@@ -13,6 +13,8 @@ _LEAST_STEP = {
 }
 # One of each comes every period, whatever the partners do.
 _EVERY_PERIOD = (topics.IMU_TYPE, topics.MOUNT_STATE_TYPE)
+_ANSWER = topics.COIL_CURRENT_TYPE
+END_OF_TIME = (2**31 - 1) * NANO  # ns; the latest whole second that a stamp can hold
 _END = 2**31 * NANO  # ns that a time can hold
 _JUMP = 3600 * NANO  # ns; a stamp so far ahead is believed when the topic's next one agrees
 
@@ -25,11 +27,28 @@ class Timekeeping:
         self._doubted = {}  # topic -> latest stamp far ahead of all others, ns
         self._keepers = {}  # topic -> latest stamp, ns
         self._paced = set()  # topics that come every period
+        self._types = set()  # of the topics that are recorded
+        self._answered = 0  # ns, latest stamp of an answer
 
     @property
     def complete_until(self):
-        """Time [ns] up to which the messages of every period are there: of several topics, the slowest."""
+        """Time [ns] up to which the samples are there: of several topics, the slowest.
+
+        `END_OF_TIME` if none are recorded, for then none is missing.
+        """
+        if self._types.isdisjoint(_EVERY_PERIOD):
+            return END_OF_TIME
         return min((self._keepers[topic] for topic in self._paced), default=self.latest)
+
+    @property
+    def answered_until(self):
+        """Time [ns] of the latest sample whose answer is there; `END_OF_TIME` if no answers are recorded."""
+        # a stamp of its own that a controller makes up tells nothing
+        return min(self._answered, self.latest) if _ANSWER in self._types else END_OF_TIME
+
+    def announce(self, type_name):
+        """Take note that a topic of some type is recorded."""
+        self._types.add(type_name)
 
     def add(self, topic, type_name, stamped, data):
         """Take note of a serialised message; returns its time in the bag [ns], or None if it begins a new epoch.
@@ -42,7 +61,10 @@ class Timekeeping:
             return self.latest
         least_step = _LEAST_STEP.get(type_name)
         if least_step is None or stamp < least_step:
-            return stamp or self.latest
+            stamp = stamp or self.latest
+            if type_name == _ANSWER:
+                self._answered = max(self._answered, stamp)
+            return stamp
         if stamp < self._keepers.get(topic, 0) + least_step:
             return None
         self._keepers[topic] = stamp

@@ -13,6 +13,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
 from ..analysis.analyse import analyse
+from ..analysis.completeness import missing
 from ..analysis.numbers import AXES, SENSORS
 from ..analysis.picture_data import prepare
 from ..analysis.plots import run_picture
@@ -26,7 +27,7 @@ from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses, closed
 from ..nodes.road_excitation import PARAMETERS as ROAD_PARAMETERS
 from ..nodes.watch import Watch
 from ..vehicle.mount_energy import MountEnergy
-from .result_folder import CommandError, make_folder, writing_to
+from .result_folder import CommandError, make_folder, whole_or_none, writing_to
 
 HIGHEST_DOMAIN = 232  # of ROS 2; beyond it DDS has no ports
 _LOOK = 0.2  # s between looks at processes and progress
@@ -61,7 +62,8 @@ def run_loop(choices, out):
     Raises
     ------
     CommandError
-        The duration is too short, the folder exists, a node ended on its own, or the bag cannot be read.
+        The duration is too short, the folder exists, a node ended on its own, or the bag cannot be read or lacks
+        something that the simulator counted.
     KeyboardInterrupt
         After the nodes have ended in order and what there is has been summarised.
     """
@@ -80,10 +82,11 @@ def run_loop(choices, out):
         console.print(f"closed loop: {choices.title}")
         interrupt = _run_nodes(choices, folder, console)
     try:
-        with writing_to(folder):
-            _evaluate(choices, folder, console)
+        lacking = _evaluate(choices, folder, console)
     except (BagError, ValueError) as error:
         raise interrupt or CommandError(str(error)) from None
+    if lacking:
+        raise CommandError(f"the bag in {str(folder)!r} is not complete, it lacks {', '.join(lacking)}") from interrupt
     if interrupt is not None:
         raise interrupt
 
@@ -127,7 +130,8 @@ def _run_nodes(choices, folder, console):
     codes = processes.stop()
     if interrupted is None and any(codes.values()):
         name = next(name for name in (*first, *codes) if codes[name])
-        raise CommandError(f"{_ending(name, codes[name], folder)}; it said:\n{processes.last_words(name)}")
+        said = processes.last_words(name)
+        raise CommandError(_ending(name, codes[name], folder) + (f"; it said:\n{said}" if said else ""))
     return interrupted
 
 
@@ -163,15 +167,19 @@ def _follow(processes, duration, console):
 
 
 def _evaluate(choices, folder, console):
+    """Leave summary and picture; returns in words what the bag lacks."""
     # of a run that was reset the last epoch; its bag has the highest number
-    bag = max(folder.glob("bag*"), key=lambda path: (len(path.name), path.name))
+    bag = max(folder.glob("bag*"), key=lambda path: (len(path.name), path.name), default=folder / "bag")
     recording = read_recording(bag)
     summary = {"run": asdict(choices), **summarise(analyse(recording, choices.settling))}
-    (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
-    run_picture(prepare(recording, choices.settling), choices.title, folder / "run.png")
-    with (folder / "summary.txt").open("w", encoding="utf-8") as file:
-        _print_summary(Terminal(file=file, width=100), summary, folder)
+    files = [folder / name for name in ("summary.json", "run.png", "summary.txt")]
+    with whole_or_none(*files) as (numbers, picture, text):
+        numbers.write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+        run_picture(prepare(recording, choices.settling), choices.title, picture)
+        with text.open("w", encoding="utf-8") as file:
+            _print_summary(Terminal(file=file, width=100), summary, folder)
     _print_summary(console, summary, folder)
+    return missing(recording)
 
 
 def _print_summary(console, summary, folder):

@@ -67,8 +67,9 @@ def replay(bag, verify, law, controller, out):
         if verify:
             from .replay_verify import run_replay_verify
 
-            sys.exit(run_replay_verify(bag, console))
-        if law is not None:
+            if different := run_replay_verify(bag, console):
+                sys.exit(different)
+        elif law is not None:
             from .replay_law import run_replay_law
 
             run_replay_law(bag, law, out, console)

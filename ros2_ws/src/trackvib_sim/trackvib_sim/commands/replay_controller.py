@@ -21,7 +21,7 @@ from ..nodes.controller_trial import ControllerTrial
 from ..nodes.processes import LoopProcesses, closed_loop_parameters
 from ..numerics.units import NANO
 from .closed_loop_run import own_domain
-from .result_folder import CommandError, make_folder, writing_to
+from .result_folder import CommandError, all_or_nothing
 
 REPLAYED = "/replayed/current"  # topic of the new answers
 
@@ -45,35 +45,43 @@ def run_replay_controller(bag, law, out, console):
         raise BagError(f"bag {str(bag)!r} is the result of such a replay; give {made_of} instead")
     if samples < 2:
         raise BagError(f"bag {str(bag)!r} holds a single sample, at least two are needed")
-    with own_domain():
-        folder = make_folder(out)
-        with writing_to(folder):
-            replayed = _replay_into_bag(recording, law, folder, console)
-    summary = {"bag": str(bag), "controller": law or "external", "samples": samples, "answered": len(replayed)}
+    summary = {"bag": str(bag), "controller": law or "external", "samples": samples}
     title = f"{called(bag)} into {law or 'a controller'}"
-    with writing_to(folder):
-        summary |= _compare(_answers(recording), replayed, folder / "currents.png", title)
+    with own_domain(), all_or_nothing(out) as folder:
+        replayed, interrupt = _replay_into_bag(recording, law, folder, console)
+        summary |= {
+            "answered": len(replayed),
+            **_compare(_answers(recording), replayed, folder / "currents.png", title),
+        }
         (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+    if interrupt is not None:
+        raise interrupt
     console.print(_words(summary), soft_wrap=True)
     console.print(f"left in {folder}: {', '.join(sorted(path.name for path in folder.iterdir()))}", soft_wrap=True)
 
 
 def _replay_into_bag(recording, law, folder, console):
-    """Write all recorded messages and the answers to a bag, which is closed whatever happens; returns the answers."""
-    writer = BagWriter(folder / "bag")
+    """Write all recorded messages and the answers to a bag.
+
+    Returns the answers and the KeyboardInterrupt that ended it, or None: the bag is whole all the same.
+    """
+    writer, replayed = BagWriter(folder / "bag"), {}
     try:
         copy_bag(recording.path, writer)
         for name, values in recording.provenance.items():
             writer.add_provenance(name, values)
         writer.add_provenance("replay", {"bag": recording.path, "controller": law or "external"})
-        return _replay(recording, law, writer, folder, console)
+        _replay(recording, law, writer, replayed, folder, console)
+    except KeyboardInterrupt as interrupt:
+        return replayed, interrupt
     finally:
         writer.close()
+    return replayed, None
 
 
-def _replay(recording, law, writer, folder, console):
-    """Return the controller's currents by stamp [ns], which go to the bag as they come."""
-    replayed, topics, stamps = {}, recording.topics, recording.chassis.stamp
+def _replay(recording, law, writer, replayed, folder, console):
+    """Add the controller's currents by stamp [ns] to `replayed`, and to the bag, as they come."""
+    topics, stamps = recording.topics, recording.chassis.stamp
     with _controller(law, round(NANO / period_of(stamps)), folder) as check, ControllerTrial() as trial:
         if law is None:
             console.print(f"waiting for a controller that listens to {CHASSIS_IMU} or {POWERTRAIN_IMU} and answers on "
@@ -88,7 +96,6 @@ def _replay(recording, law, writer, folder, console):
             else:
                 writer.write(REPLAYED, stamp, answer.data)
                 replayed[stamp] = answer.current
-    return replayed
 
 
 def _answers(recording):

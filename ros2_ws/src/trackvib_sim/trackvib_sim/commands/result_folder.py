@@ -32,6 +32,27 @@ def writing_to(folder):
 
 
 @contextmanager
+def whole_or_none(*files):
+    """Give paths to write to, one for each of some files in one folder, which take their names when all are whole.
+
+    Raises
+    ------
+    CommandError
+        They cannot be written; what was there before is as it was.
+    """
+    # a device is not replaced
+    new = [file.with_name(f".{file.name}") if file.is_file() or not file.exists() else file for file in files]
+    try:
+        with writing_to(files[0].parent):
+            yield new
+            for part, file in zip(new, files, strict=True):
+                part.replace(file)
+    finally:
+        for part in set(new) - set(files):
+            part.unlink(missing_ok=True)
+
+
+@contextmanager
 def all_or_nothing(path):
     """Make a new folder, which is taken away again, with the parents made for it, if the block ends in an exception.
 

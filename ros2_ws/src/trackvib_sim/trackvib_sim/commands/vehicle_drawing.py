@@ -11,6 +11,7 @@ from ..data import default_vehicle_file
 from ..drawings.vehicle_picture import vehicle_picture
 from ..drawings.vehicle_table import Figure, Parameter, figures, parameters
 from ..vehicle.vehicle_file import read_vehicle
+from .result_folder import whole_or_none
 
 
 def run_vehicle(vehicle_file, picture):
@@ -20,14 +21,15 @@ def run_vehicle(vehicle_file, picture):
     ------
     ValueError
         The file cannot be used, the tracks do not fit, or the picture's folder does not exist.
-    OSError
+    CommandError
         The picture cannot be written.
     """
     if not Path(picture).absolute().parent.is_dir():
         raise ValueError(f"picture {picture}: its folder must exist")
     path = vehicle_file or default_vehicle_file()
     vehicle, text = read_vehicle(path)
-    vehicle_picture(vehicle, picture)
+    with whole_or_none(Path(picture)) as (file,):
+        vehicle_picture(vehicle, file)
     out = Terminal()
     out.print(_parameters(text, f"Vehicle {path}"))
     out.print(_figures(vehicle))

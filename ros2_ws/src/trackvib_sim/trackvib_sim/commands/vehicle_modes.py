@@ -12,6 +12,7 @@ from ..rui.linear.modes import describe, modes
 from ..vehicle.linear_vehicle import build_linear_vehicle
 from ..vehicle.system import Operation, build_system
 from ..vehicle.vehicle_file import read_vehicle
+from .result_folder import whole_or_none
 
 DRAWN = 12  # most modes in the picture
 ALIKE = 0.05  # relative distance of neighbours that share a line, if the same parts move
@@ -39,7 +40,8 @@ def run_modes(current, highest, picture):
     drawn = [group[0] for group in _groups(model, oscillating)][:DRAWN]
     if drawn:
         titles = [f"{mode.frequency:.2f} Hz, {mode.damping_ratio:.3f}\n{_motion(model, mode)}" for mode in drawn]
-        mode_pictures(model, drawn, titles, picture)
+        with whole_or_none(Path(picture)) as (file,):
+            mode_pictures(model, drawn, titles, file)
         out.print(f"picture of the first of each line: {picture}")
 
 

@@ -1,6 +1,5 @@
 """Gives recorded samples to a live controller in lock-step, in place of the simulator."""
 
-import time
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +9,7 @@ from mr_mount_controller.node_base.interrupts import put_off_interrupts
 from mr_mount_controller.node_base.listener import Listener
 from mr_mount_controller.node_base.loop_node import start_ros
 from mr_mount_controller.node_base.packed_message import MessageReader
+from mr_mount_controller.node_base.patience import wait_until
 from mr_mount_controller.node_base.qos import LOOP_QOS, LOOP_WRITER_QOS
 from rclpy.experimental import EventsExecutor
 from sensor_msgs.msg import Imu
@@ -81,10 +81,7 @@ class ControllerTrial:
         self._spin(0.0)
         if self._given_up is None or self._heard > self._given_up:
             self._given_up = None
-            end = time.monotonic() + _ANSWER_TIMEOUT
-            while not lockstep.answered and (left := end - time.monotonic()) > 0.0:
-                self._spin(min(left, _TICK))
-            if not lockstep.answered:
+            if not wait_until(lambda: lockstep.answered, self._spin, _ANSWER_TIMEOUT):
                 self._given_up = self._heard
         return self._latest if lockstep.answered else None
 

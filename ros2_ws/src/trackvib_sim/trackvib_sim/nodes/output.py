@@ -1,5 +1,7 @@
 """What the simulator publishes: its publishers, and when each has something to say."""
 
+import time
+
 from diagnostic_msgs.msg import DiagnosticArray
 from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.qos import CLOCK_QOS, LATCHED_QOS, LOOP_WRITER_QOS
@@ -15,7 +17,7 @@ from ..simulation.simulation import CHASSIS, POWERTRAIN
 from .messages import ImuMessage, MountMessage, OdometryMessage, diagnostics
 
 DIAGNOSTICS_RATE = 10  # Hz of simulated time
-_FLUSH = Duration(seconds=2)  # for the last messages to arrive
+_FLUSH = 4.0  # s for the last messages to arrive
 
 
 class SimulatorOutput:
@@ -80,5 +82,6 @@ class SimulatorOutput:
 
     def flush(self):
         """Let what was published arrive."""
+        end = time.monotonic() + _FLUSH
         for publisher in (*self._imu_out, self._mount_out, self._odometry_out, self._diagnostics_out):
-            publisher.wait_for_all_acked(_FLUSH)
+            publisher.wait_for_all_acked(Duration(seconds=max(end - time.monotonic(), 0.0)))

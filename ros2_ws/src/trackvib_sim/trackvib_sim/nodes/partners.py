@@ -1,21 +1,26 @@
 """Whom the simulator waits for at the start, and whom it watches then: another simulator, and the recorder."""
 
 import time
+from functools import partial
 from math import inf
 
 from builtin_interfaces.msg import Time
 from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.loop_node import NodeError
+from mr_mount_controller.node_base.patience import wait_until
 from mr_mount_controller.node_base.qos import CLOCK_QOS, LATCHED_QOS
 from rosgraph_msgs.msg import Clock
 
+from ..bags.timekeeping import END_OF_TIME
 from ..numerics.units import NANO
 
-# A message waits in a queue of 1000 at worst, so a recorder this far behind has lost nothing yet.
-_LAG = NANO // 4  # ns of simulated time
+# The recorder's port in shared memory holds 512 messages, and a period has some four. What finds it full is sent again
+# after up to 3 s, if its writer still holds it by then, and meanwhile all that follows waits.
+_LAG = 100  # periods
 _LISTENING = 0.7  # s in which a simulator that is there already makes itself known
 _AGAIN = 1.0  # s after which one that stands still has told its time again
-_TIMEOUT = 10.0  # s of wall time
+_TIMEOUT = 10.0  # s without any progress of the recorder
+_LAST = 5.0  # s at the end of a run that shall stop
 _SETTLING = 0.3  # s without a new partner; a controller's two subscriptions are not found in the same instant
 
 
@@ -71,35 +76,66 @@ class SecondClock:
 
 
 class RecorderLag:
-    """Follows how far the recorder has written, so that no message is lost however slow it is."""
+    """Follows how far the recorder has written, so that no message is lost however slow it is.
 
-    def __init__(self, node, time):
-        """Listen to the recorder; `time()` is the simulated time [ns]."""
-        self._node, self._time = node, time
-        self._recorded = None  # time up to which it has written, ns; unknown without a recorder
-        node.listen(Time, topics.RECORDED, self._on_recorded, LATCHED_QOS)
+    A writer holds its last messages only (ours 1000, others perhaps 10) and nothing but the pace of the loop keeps it
+    from making more. So the loop waits until both samples and answers are written.
+    """
+
+    def __init__(self, node, period, time, heard):
+        """Listen to the recorder.
+
+        `period` is the loop's [ns], `time()` the simulated time [ns], `heard()` the latest sample [ns] that somebody
+        has answered.
+        """
+        self._node, self._lag, self._time, self._heard = node, _LAG * period, time, heard
+        # times up to which it has written, ns; unknown without a recorder
+        self._recorded = {topics.RECORDED: None, topics.RECORDED_ANSWERS: None}
+        for topic in self._recorded:
+            on_recorded = partial(self._on_recorded, topic)
+            node.listen(Time, topic, on_recorded, LATCHED_QOS)
 
     @property
     def there(self):
         """Whether a recorder has said that all its subscriptions stand."""
-        return self._recorded is not None
+        return None not in self._recorded.values()
 
     def wait(self):
-        """Hold the loop while the recorder is too far behind; one that does not catch up is no longer waited for."""
-        if not self.there or self._near() or self._node.spin_until(self._near, _TIMEOUT) or self._node.stopping():
-            return
-        self._recorded = None
-        self._node.get_logger().warning("the recorder does not keep up, no longer waiting for it; messages may be lost")
+        """Hold the loop while the recorder is too far behind; one that stands still is no longer waited for."""
+        self._hold(self._lag)
+
+    def complete(self):
+        """Hold until the recorder has written all there is."""
+        self._hold(0)
+
+    def complete_in_time(self):
+        """Wait until it has written all there is, even when the node shall stop, but not for long."""
+        if self.there:
+            wait_until(lambda: self._behind() <= 0, self._node.spin_once, _LAST)
 
     def start_anew(self):
         """Note that time has gone back to zero."""
-        if self.there:
-            self._recorded = 0
+        for topic, stamp in self._recorded.items():
+            if stamp is not None and stamp != END_OF_TIME:
+                self._recorded[topic] = 0
 
-    def _near(self):
-        return self._time() - self._recorded <= _LAG
+    def _hold(self, lag):
+        while self.there and self._behind() > lag and not self._node.stopping():
+            before = self._recorded.copy()
+            if self._node.spin_until(lambda before=before: self._recorded != before, _TIMEOUT):
+                continue
+            if not self._node.stopping():
+                self._recorded = dict.fromkeys(self._recorded)
+                self._node.get_logger().warning(
+                    "the recorder does not keep up, no longer waiting for it; messages may be lost"
+                )
 
-    def _on_recorded(self, written):
+    def _behind(self):
+        """How far the recorder is behind [ns]: with the samples, or with the answers to them."""
+        samples, answers = self._recorded[topics.RECORDED], self._recorded[topics.RECORDED_ANSWERS]
+        return max(self._time() - samples, self._heard() - answers)
+
+    def _on_recorded(self, topic, written):
         stamp = written.sec * NANO + written.nanosec
-        if 0 <= stamp <= self._time():  # else it speaks of the time before a reset
-            self._recorded = stamp
+        if 0 <= stamp <= self._time() or stamp == END_OF_TIME:  # else it speaks of the time before a reset
+            self._recorded[topic] = stamp

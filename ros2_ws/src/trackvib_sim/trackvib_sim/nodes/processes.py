@@ -74,8 +74,9 @@ class LoopProcesses:
         return self.ended()
 
     def last_words(self, name, lines=8):
-        """Return the last lines that a process printed."""
-        text = (self._log_folder / f"{name}.log").read_text(errors="replace")
+        """Return the last lines that a process printed; none if their folder is gone."""
+        log = self._log_folder / f"{name}.log"
+        text = log.read_text(errors="replace") if log.exists() else ""
         return "\n".join(text.strip().splitlines()[-lines:])
 
 

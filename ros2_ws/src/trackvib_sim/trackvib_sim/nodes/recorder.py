@@ -78,6 +78,7 @@ class RecorderNode(LoopNode):
         self._undescribed = False  # whether there may be more
         self._times = Timekeeping()
         self._recorded = self.create_publisher(Time, topics.RECORDED, LATCHED_QOS)
+        self._recorded_answers = self.create_publisher(Time, topics.RECORDED_ANSWERS, LATCHED_QOS)
         self._received, self._failure = 0, None
         self._flushed = time.monotonic()
 
@@ -192,6 +193,7 @@ class RecorderNode(LoopNode):
         return [name for name in new if name in self._topics]
 
     def _announce(self, topic):
+        self._times.announce(topic.type_name)
         self._bag.add_topic(topic.name, topic.type_name, topic.qos, topic.type_hash)
 
     def _flush_in_time(self):
@@ -202,8 +204,12 @@ class RecorderNode(LoopNode):
             self._flushed = now
 
     def _report(self):
-        seconds, nanoseconds = divmod(self._times.complete_until, NANO)
-        self._recorded.publish(Time(sec=seconds, nanosec=nanoseconds))
+        for publisher, stamp in (
+            (self._recorded, self._times.complete_until),
+            (self._recorded_answers, self._times.answered_until),
+        ):
+            seconds, nanoseconds = divmod(stamp, NANO)
+            publisher.publish(Time(sec=seconds, nanosec=nanoseconds))
 
     def _take_all(self):
         """Write all that has arrived, for a while at most; returns whether anything had."""

@@ -16,13 +16,15 @@ class RunControl:
     epoch : int
         How often the run has begun: 1, and one more with every reset.
     reset_wanted : bool
+    state : str
+        One of waiting, running, paused, finished, stopped, failed; waiting is for partners or road.
     """
 
     def __init__(self, node, time):
         """Offer the services under the node's name; `time()` is the simulated time [ns] of the period at hand."""
         self.epoch = 1
         self.reset_wanted = False
-        self._phase = "waiting"
+        self.state = "waiting"
         self._paused = False
         self._steps = 0  # still to be done while paused
         self._time = time
@@ -34,15 +36,6 @@ class RunControl:
             ("reset", self._reset),
         ):
             node.create_service(Trigger, f"~/{name}", service)
-
-    @property
-    def state(self):
-        """One of waiting, running, paused, finished, stopped, failed; waiting is for partners or road."""
-        return "paused" if self._paused and self._phase == "running" else self._phase
-
-    @state.setter
-    def state(self, phase):
-        self._phase = phase
 
     @property
     def holding(self):
@@ -74,7 +67,7 @@ class RunControl:
         return self._answer(response, "one period on, from")
 
     def _reset(self, _request, response):
-        if self._phase == "waiting" and self._time() == 0:
+        if self.state == "waiting" and self._time() == 0:
             response.success, response.message = False, "the run has not begun"
             return response
         self.reset_wanted = True

@@ -43,7 +43,8 @@ class SimulatorNode(LoopNode):
         self.listen(RoadProfile, topics.ROAD_PROFILE, self._on_road, ROAD_QOS)
         self._control = RunControl(self, self._time)
         self._second_clock = SecondClock(self, self._time)
-        self._recorder = RecorderLag(self, self._time) if s["wait_for_recorder"] else None
+        period = self._simulation.settings.rates.period
+        self._recorder = RecorderLag(self, period, self._time, lambda: self._heard) if s["wait_for_recorder"] else None
 
     def _time(self):  # ns
         return self._simulation.time
@@ -73,6 +74,8 @@ class SimulatorNode(LoopNode):
                 self._pause()
             else:
                 self._one_period()
+        if self._recorder:
+            self._recorder.complete()
         if not self.stopping():
             self._control.state = "finished"
             self.get_logger().info(summary(self._simulation, self._lockstep, self._phases))
@@ -81,11 +84,15 @@ class SimulatorNode(LoopNode):
         """Say how it ended and let the last messages arrive."""
         if self._control.state in ("running", "paused"):
             self._control.state = "stopped"
+        if self._recorder:
+            self._recorder.complete_in_time()
         self._publish_diagnostics()
         self._output.flush()
 
     def _start_anew(self):
         """Begin the next epoch: the first run over again, with everything at its start."""
+        if self._recorder:
+            self._recorder.complete()
         self._output.flush()  # what belongs to the old epoch arrives before it ends
         self._second_clock.start_anew()
         self._control.begin_epoch()
@@ -100,7 +107,11 @@ class SimulatorNode(LoopNode):
 
     def _pause(self):
         began = time.perf_counter()
+        if self._recorder:
+            self._recorder.complete()
+        self._control.state = "paused"  # only now: who is told so may stop the other nodes
         self._stand_until(lambda: not self._control.holding)
+        self._control.state = "running"
         self._start += time.perf_counter() - began
         self._publish_diagnostics()
 

@@ -36,7 +36,7 @@ class TopicChoice:
     names : list of str
         Topics to wait for; empty texts are passed over.
     pattern : str
-        Regular expression; empty for none. The recorder's own topic is never found by it.
+        Regular expression; empty for none. The recorder's own topics are never found by it.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ class TopicChoice:
             ) from None
         if not self.named and self._pattern is None:
             raise ParameterError("recorder: parameters 'topics' and 'pattern' are empty, nothing is to be recorded")
-        self._own = node.resolve_topic_name(topics.RECORDED)
+        self._own = {node.resolve_topic_name(name) for name in (topics.RECORDED, topics.RECORDED_ANSWERS)}
 
     def __str__(self):
         found = [f"topics like '{self._pattern.pattern}'"] if self._pattern else []
@@ -69,7 +69,7 @@ class TopicChoice:
         names = set(self.named)
         if self._pattern:
             known = dict(self._node.get_topic_names_and_types())
-            names |= {name for name in known if self._pattern.search(name) and name != self._own}
+            names |= {name for name in known if self._pattern.search(name) and name not in self._own}
         return {name for name in names if self._node.get_publishers_info_by_topic(name)}
 
     def complete(self):

@@ -1,0 +1,55 @@
+"""Analytic: how long a wait takes, by a clock of the test's own."""
+
+import pytest
+from mr_mount_controller.node_base import patience
+
+pytestmark = pytest.mark.analytic
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    """A clock that only looks move: `clock[0]` is its time [s]."""
+    now = [0.0]
+    monkeypatch.setattr(patience.time, "monotonic", lambda: now[0])
+    return now
+
+
+def test_a_silent_partner_is_waited_for_as_long_as_asked(clock):
+    def look(seconds):
+        clock[0] += seconds
+
+    assert not patience.wait_until(lambda: False, look, 1.25)
+    assert clock[0] == pytest.approx(1.25)
+
+
+@pytest.mark.parametrize("timeout", [None, 1.0])
+def test_who_comes_ends_the_wait(clock, timeout):
+    def look(seconds):
+        clock[0] += seconds / 2
+
+    assert patience.wait_until(lambda: clock[0] >= 0.7, look, timeout)
+    assert clock[0] < 0.8
+
+
+def test_each_look_counts_as_what_was_asked_for(clock):
+    """On a machine so loaded that every look takes 0.25 s longer, ten looks of 0.1 s are a second of patience."""
+    looks = []
+
+    def look(seconds):
+        looks.append(seconds)
+        clock[0] += seconds + 0.25
+
+    assert not patience.wait_until(lambda: False, look, 1.0)
+    assert len(looks) in (10, 11) and sum(looks) == pytest.approx(1.0)
+
+
+def test_after_an_absence_patience_begins_anew(clock):
+    """Stopped for 15 s within the last look: who answers two seconds later is in time."""
+    waited = []
+
+    def look(seconds):
+        clock[0] += seconds + (15.0 if 0.85 < clock[0] < 0.95 else 0.0)
+        waited.append(clock[0])
+
+    assert patience.wait_until(lambda: clock[0] > 18.0, look, 1.0)
+    assert not patience.wait_until(lambda: False, look, 1.0)

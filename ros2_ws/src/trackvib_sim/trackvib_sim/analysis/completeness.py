@@ -1,0 +1,60 @@
+"""Whether a bag holds all of a run that replay needs: what its simulator counted against what was recorded."""
+
+import numpy as np
+
+from ..numerics.units import NANO
+from .stamps import period_of
+
+_ENDS = ("finished", "stopped")  # states in which a simulator speaks its last word
+_HEARD = ("accepted", "late", "duplicate", "early", "not_finite")  # one for each answer that came to the simulator
+
+
+def missing(recording):
+    """Return in words what a `bags.recording.Recording` of a run in lock-step lacks, one text for each part.
+
+    Empty if it has every sample, mount state and answer that the simulator counted, the road under them, and the
+    simulator's last word itself.
+    """
+    told = recording.diagnostics
+    if told.get("state") not in _ENDS:
+        return ["the simulator's last word"]
+    period = period_of(recording.chassis.stamp)
+    stamps = period * np.arange(1, round(float(told["time"]) * NANO / period) + 1)
+    streams = {end: getattr(recording, part) for part, end in (
+        ("chassis", "chassis/imu"), ("powertrain", "powertrain/imu"), ("mounts", "mount_state"),
+    )}  # fmt: skip
+    lacking = [
+        _samples(end, stamps, np.empty(0, np.int64) if stream is None else stream.stamp)
+        for end, stream in streams.items()
+    ]
+    return list(filter(None, (*lacking, _answers(recording.answers, stamps, told), _road(recording))))
+
+
+def _samples(end, stamps, recorded):
+    absent = stamps[~np.isin(stamps, recorded)]
+    return f"{len(absent)} of {len(stamps)} {end}{_first(absent)}" if len(absent) else ""
+
+
+def _answers(answers, stamps, told):
+    """Compare by samples, and by number: where the controller was silent a late answer may stand for one in time."""
+    recorded = np.empty(0, np.int64) if answers is None else answers.sample_stamp
+    absent = stamps[~np.isin(stamps, recorded)]
+    counts = {outcome: int(told.get(outcome, 0)) for outcome in _HEARD}
+    heard = sum(counts.values())
+    lost = max(counts["accepted"] + len(absent) - len(stamps), heard - len(recorded))
+    return f"{lost} of {heard} coil_current{_first(absent)}" if lost > 0 else ""
+
+
+def _road(recording):
+    if recording.odometry is None:
+        return ""
+    reached, end = recording.odometry.position[[0, -1], 0]
+    for start, spacing, left, _ in sorted(recording.road, key=lambda patch: patch[0]):
+        if start > reached + 0.5 * spacing:
+            break
+        reached = max(reached, start + len(left) * spacing)
+    return f"road_profile from {reached:.1f} m on" if reached < end else ""
+
+
+def _first(absent):
+    return f" (first at t = {absent[0] / NANO:.3f} s)" if len(absent) else ""
