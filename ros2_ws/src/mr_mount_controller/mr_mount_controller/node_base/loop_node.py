@@ -32,7 +32,7 @@ class LoopNode(Node):
     def __init__(self, name, parameters):
         super().__init__(name)
         self.settings = {parameter.name: self._declare(parameter) for parameter in parameters}
-        self._listeners = []
+        self._inputs = []
         self._spin = None
         self.stopping = lambda: False
 
@@ -44,13 +44,13 @@ class LoopNode(Node):
 
     def listen(self, message_type, topic, on_message, qos, read=None):
         """Subscribe as `Listener` does; returns the subscription."""
-        self._listeners.append(Listener(self, message_type, topic, on_message, qos, read))
-        return self._listeners[-1].subscription
+        self._inputs.append(Listener(self, message_type, topic, on_message, qos, read))
+        return self._inputs[-1].subscription
 
     @property
     def refused(self):
         """How many messages could not be used."""
-        return sum(listener.refused for listener in self._listeners)
+        return sum(listener.refused for listener in self._inputs)
 
     def refuse_unknown_parameters(self):
         """Raise `ParameterError` for a value given to a parameter that the node does not have."""
