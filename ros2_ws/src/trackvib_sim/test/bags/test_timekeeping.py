@@ -93,6 +93,7 @@ HOUR = 3600 * 10**9
 def test_one_absurd_stamp_changes_nothing(type_name, stamp):
     """It is recorded at the latest good time; before it and after it the times are those of the stamps."""
     times = Timekeeping()
+    times.announce(IMU)
     assert times.add("/topic", IMU, True, stamped(7 * MS)) == 7 * MS
     assert times.add("/other", type_name, True, stamped(stamp)) == 7 * MS
     assert times.add("/topic", IMU, True, stamped(8 * MS)) == 8 * MS
