@@ -10,10 +10,10 @@ from mr_mount_controller.node_base.plain_text import readable
 from .commands.analyze_cli import analyze
 from .commands.bag_cli import bag
 from .commands.endings import fail, say
+from .commands.lasting_output import OutputLost, lasting_output
 from .commands.option_types import INTERRUPTED, FiniteRange, known_law
 from .commands.replay_cli import replay
 from .commands.study_cli import study
-from .commands.terminal import OutputLost, lasting_output
 from .road.iso8608 import CLASSES
 
 

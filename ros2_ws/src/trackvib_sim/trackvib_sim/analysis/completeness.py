@@ -1,6 +1,7 @@
 """Whether a bag holds all of a run that replay needs: what its simulator counted against what was recorded."""
 
 import numpy as np
+from mr_mount_controller.node_base import topics
 
 from ..numerics.units import NANO
 from .stamps import period_of
@@ -15,19 +16,21 @@ def missing(recording):
     Empty if it has every sample, mount state and answer that the simulator counted, the road under them, and the
     simulator's last word itself.
     """
-    told = recording.diagnostics
-    if told.get("state") not in _ENDS:
+    counts = recording.diagnostics
+    if counts.get("state") not in _ENDS:
         return ["the simulator's last word"]
     period = period_of(recording.chassis.stamp)
-    stamps = period * np.arange(1, round(float(told["time"]) * NANO / period) + 1)
-    streams = {end: getattr(recording, part) for part, end in (
-        ("chassis", "chassis/imu"), ("powertrain", "powertrain/imu"), ("mounts", "mount_state"),
-    )}  # fmt: skip
+    stamps = period * np.arange(1, round(float(counts["time"]) * NANO / period) + 1)
+    streams = {
+        topics.CHASSIS_IMU: recording.chassis,
+        topics.POWERTRAIN_IMU: recording.powertrain,
+        topics.MOUNT_STATE: recording.mounts,
+    }
     lacking = [
         _samples(end, stamps, np.empty(0, np.int64) if stream is None else stream.stamp)
         for end, stream in streams.items()
     ]
-    return list(filter(None, (*lacking, _answers(recording.answers, stamps, told), _road(recording))))
+    return list(filter(None, (*lacking, _answers(recording.answers, stamps, counts), _road(recording))))
 
 
 def _samples(end, stamps, recorded):
@@ -35,14 +38,14 @@ def _samples(end, stamps, recorded):
     return f"{len(absent)} of {len(stamps)} {end}{_first(absent)}" if len(absent) else ""
 
 
-def _answers(answers, stamps, told):
+def _answers(answers, stamps, diagnostics):
     """Compare by samples, and by number: where the controller was silent a late answer may stand for one in time."""
     recorded = np.empty(0, np.int64) if answers is None else answers.sample_stamp
     absent = stamps[~np.isin(stamps, recorded)]
-    counts = {outcome: int(told.get(outcome, 0)) for outcome in _HEARD}
+    counts = {outcome: int(diagnostics.get(outcome, 0)) for outcome in _HEARD}
     heard = sum(counts.values())
     lost = max(counts["accepted"] + len(absent) - len(stamps), heard - len(recorded))
-    return f"{lost} of {heard} coil_current{_first(absent)}" if lost > 0 else ""
+    return f"{lost} of {heard} {topics.COIL_CURRENT}{_first(absent)}" if lost > 0 else ""
 
 
 def _road(recording):
@@ -53,7 +56,7 @@ def _road(recording):
         if start > reached + 0.5 * spacing:
             break
         reached = max(reached, start + len(left) * spacing)
-    return f"road_profile from {reached:.1f} m on" if reached < end else ""
+    return f"{topics.ROAD_PROFILE} from {reached:.1f} m on" if reached < end else ""
 
 
 def _first(absent):
