@@ -79,8 +79,8 @@ def _interrupt():
 )
 def run(road_class, speed, duration, law, seed, one_process, out):
     """Run the closed loop as four ROS 2 nodes; leaves a bag, a summary and a picture."""
-    from .commands.closed_loop_run import Choices, run_loop  # imported late: --help need not wait for it
     from .commands.result_folder import CommandError
+    from .commands.run import Choices, run_loop  # imported late: --help need not wait for it
 
     try:
         run_loop(Choices(road_class, speed, duration, law, seed, one_process), out)
@@ -108,8 +108,8 @@ def run(road_class, speed, duration, law, seed, one_process, out):
 )
 def modes(current, highest, out):
     """Print the standing vehicle's natural frequencies and damping, and draw its modes."""
+    from .commands.modes import run_modes
     from .commands.result_folder import CommandError  # imported late, as above
-    from .commands.vehicle_modes import run_modes
 
     try:
         run_modes(current, highest, out)
@@ -130,7 +130,7 @@ def modes(current, highest, out):
 def vehicle(vehicle, out):
     """Print the vehicle's parameters with their sources, and draw it to scale."""
     from .commands.result_folder import CommandError  # imported late, as above
-    from .commands.vehicle_drawing import run_vehicle
+    from .commands.vehicle import run_vehicle
 
     try:
         run_vehicle(vehicle, out)

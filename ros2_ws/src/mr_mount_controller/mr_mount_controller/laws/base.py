@@ -10,6 +10,13 @@ class Sample(NamedTuple):
 
     Specific force is acceleration less gravity (REP-145): +9.81 m/s^2 along z at rest. Both sensors sit in the middle
     between the left and the right mount. All are plain floats, finite, and means over the period.
+
+    Examples
+    --------
+    >>> from mr_mount_controller.laws import Sample
+    >>> at_rest = Sample(1e-3, (0.0, 0.0, 9.81), (0.0, 0.0, 0.0), (0.0, 0.0, 9.81), (0.0, 0.0, 0.0))
+    >>> at_rest.powertrain_force[2]  # m/s^2
+    9.81
     """
 
     time: float  # s, end of the period; simulated time where a simulator runs, counted from the start of the run
@@ -20,7 +27,14 @@ class Sample(NamedTuple):
 
 
 class LawError(RuntimeError):
-    """A law returned something that is not a current."""
+    """A law returned something that is not a current.
+
+    Examples
+    --------
+    >>> from mr_mount_controller.laws import LawError
+    >>> issubclass(LawError, RuntimeError)
+    True
+    """
 
 
 class ControlLaw:

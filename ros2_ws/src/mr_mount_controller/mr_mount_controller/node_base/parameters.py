@@ -5,7 +5,15 @@ from math import isfinite
 
 
 class ParameterError(ValueError):
-    """A parameter that cannot be used; the message names it, its value and what is accepted."""
+    """A parameter that cannot be used; the message names it, its value and what is accepted.
+
+    Examples
+    --------
+    >>> from mr_mount_controller.laws import Parameter
+    >>> Parameter("gain", 1.0, "Of the law.", "A s/m", 0.0, 10.0).check(20.0)
+    Traceback (most recent call last):
+    mr_mount_controller.node_base.parameters.ParameterError: parameter 'gain' is 20.0, ...
+    """
 
 
 @dataclass(frozen=True)
@@ -13,6 +21,12 @@ class Parameter:
     """A named value of the type of its default.
 
     Numbers lie in [low, high]; strings, where `choices` is given, are one of them.
+
+    Examples
+    --------
+    >>> from mr_mount_controller.laws import Parameter
+    >>> Parameter("firm_current", 2.5, "Current of a firm mount.", "A", 0.7, 4.0).check(3.0)
+    3.0
     """
 
     name: str

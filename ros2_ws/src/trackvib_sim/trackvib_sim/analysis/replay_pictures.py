@@ -7,10 +7,7 @@ matplotlib.use("Agg")  # files only: no display is needed
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
-from .numbers import (
-    SENSORS,  # noqa: E402
-    SIDES,  # noqa: E402
-)
+from .numbers import SENSORS, SIDES
 from .plots import LOWEST_FREQUENCY, NAMES  # noqa: E402
 from .vibration import psd  # noqa: E402
 

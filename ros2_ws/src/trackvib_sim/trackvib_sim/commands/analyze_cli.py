@@ -31,7 +31,7 @@ def analyze(bags, settle, out):
     Parquet for programs.
     """
     from ..bags.errors import BagError  # imported late: --help need not wait for it
-    from .bag_evaluation import run_analyze
+    from .analyze import run_analyze
     from .result_folder import CommandError
 
     try:

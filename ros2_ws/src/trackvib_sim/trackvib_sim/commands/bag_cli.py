@@ -33,7 +33,7 @@ def _ends_in_one_line():
 def info(bag):
     """Show what is in a bag: topics, messages, times, and what made it."""
     with _ends_in_one_line():
-        from .bag_tools import run_info  # imported late, as above
+        from .bag import run_info  # imported late, as above
 
         run_info(bag)
 
@@ -48,6 +48,6 @@ def repair(bag):
     its name ending in .damaged. A sound bag is left alone.
     """
     with _ends_in_one_line():
-        from .bag_tools import run_repair  # imported late, as above
+        from .bag import run_repair  # imported late, as above
 
         run_repair(bag)

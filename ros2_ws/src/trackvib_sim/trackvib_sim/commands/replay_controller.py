@@ -20,8 +20,8 @@ from ..console import followed
 from ..nodes.controller_trial import ControllerTrial
 from ..nodes.processes import LoopProcesses, closed_loop_parameters
 from ..numerics.units import NANO
-from .closed_loop_run import own_domain
 from .result_folder import CommandError, all_or_nothing
+from .run import own_domain
 
 REPLAYED = "/replayed/current"  # topic of the new answers
 
