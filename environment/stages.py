@@ -84,13 +84,17 @@ def _make_venv(setup: Setup, task: Task) -> None:
     env["PIP_USER"] = "0"  # a user's configuration may ask for --user, which venv's pip refuses
     share = ["--system-site-packages"] if ros.prefix else []
     task.run([python.path, "-I", "-m", "venv", *share, str(places.venv)], env)
-    # empy comes as source; it, too, is to be built with a pinned tool. As a URL, because a path may have a space.
+    # Only what the lock has the hashes of is installed. empy comes as source, and a build environment that pip makes
+    # fetches its tools unchecked: setuptools is installed first, and empy is built with that.
     builder = places.venv / "builder.txt"
-    builder.write_text(re.search("^setuptools==.*", setup.lock_file.read_text(), re.MULTILINE)[0])
-    env["PIP_CONSTRAINT"] = env["PIP_BUILD_CONSTRAINT"] = builder.as_uri()
+    builder.write_text(re.search(r"^setuptools==(?:.*\\\n)*.*\n", setup.lock_file.read_text(), re.MULTILINE)[0])
+    env["PIP_CONSTRAINT"] = builder.as_uri()  # in place of a user's own; as a URL, because a path may have a space
+    env.pop("PIP_BUILD_CONSTRAINT", None)  # pip refuses it where it makes no build environment
     # The lock is complete, so nothing has to be resolved; -I keeps pip from counting what lies under ~/.local.
     pip = [str(places.python), "-I", "-m", "pip", "--disable-pip-version-check", "--no-input", "install"]
-    task.run([*pip, "--no-deps", "--progress-bar=off", "-r", str(setup.lock_file)], env)
+    how = ["--no-deps", "--require-hashes", "--no-build-isolation", "--progress-bar=off"]
+    for requirements in (builder, setup.lock_file):
+        task.run([*pip, *how, "-r", str(requirements)], env)
 
 
 def _make_workspace(setup: Setup, task: Task) -> None:

@@ -138,6 +138,17 @@ def test_every_dependency_has_its_reason():
                 assert f"`{name[0]}`" in text, f"{file.name}: {name[0]}"
 
 
+@pytest.mark.parametrize("lock", sorted((ROOT / "environment").glob("*.lock")), ids=lambda path: path.name)
+def test_locks_hold_hashes_and_no_addresses(lock):
+    """Each pin has its hashes, and where packages are fetched from is the user's own setting."""
+    text = lock.read_text()
+    entries = re.findall(r"^[\w.-]+==.*(?:\n[ ].*)*", text, re.MULTILINE)
+    assert len(entries) == len(re.findall(r"^[^\s#].*", text, re.MULTILINE)) > 0
+    for entry in entries:
+        assert re.search(r"--hash=sha256:[0-9a-f]{64}\b", entry), entry
+    assert not re.search(r"://|--(?:extra-)?index-url|--find-links", text)
+
+
 @each_document
 def test_lines_are_short(document):
     """At most 120 characters, but for tables, code, and addresses."""
