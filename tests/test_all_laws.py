@@ -14,6 +14,8 @@ from trackvib_sim.simulation.simulation import Simulation
 from trackvib_sim.vehicle.system import Operation
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
+from .conftest import UNHURRIED
+
 pytestmark = [pytest.mark.system, pytest.mark.slow(reason="each law drives three whole loops")]
 
 SAMPLES = 1000
@@ -35,7 +37,7 @@ def run_nodes(start_node, tmp_path):
         of_nodes = {
             "road_excitation": ROAD,
             "controller": {"law": law, "wait_for_recorder": True},
-            "simulator": {"duration": SAMPLES / 1000, "wait_for_recorder": True},
+            "simulator": {"duration": SAMPLES / 1000, "wait_for_recorder": True, "answer_timeout": UNHURRIED},
         }
         given = {f"{node}:{name}": value for node, values in of_nodes.items() for name, value in values.items()}
         bag = tmp_path / executables[-1]

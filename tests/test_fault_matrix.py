@@ -8,11 +8,15 @@ from pathlib import Path
 import pytest
 from trackvib_sim.bags.reading import read_recording
 
+from .conftest import UNHURRIED
+
 pytestmark = [pytest.mark.system, pytest.mark.slow(reason="each fault is a loop of real processes that waits")]
 
 CONTROLLERS = Path(__file__).parent / "controllers"
 PROPER = 2.0  # A, what the unruly controller answers properly
 PASSIVE = 1.0  # A
+# s, short enough to wait for, long enough that a busy machine keeps nobody silent for so long
+NOTICED = 2.0
 
 
 def counted(simulator):
@@ -33,7 +37,7 @@ def unruly(start):
 def test_nothing_but_nonsense_is_silence(start_node, unruly, observer, policy, current, kind):
     """Who answers nothing useful is silent: what then flows, and whether the run goes on, is on_silence's choice."""
     unruly(kind, 200)
-    simulator = start_node("simulator", duration=0.5, answer_timeout=0.2, on_silence=policy)
+    simulator = start_node("simulator", duration=0.5, answer_timeout=NOTICED, on_silence=policy)
     observer.wait_for(state="waiting")  # who comes later may miss the end of a run as short as this
     start_node("road_excitation")
     code = simulator.wait()
@@ -51,7 +55,7 @@ def test_answers_out_of_order(start_node, unruly):
     """An answer that comes behind the next one is late, and changes nothing."""
     start_node("road_excitation")
     unruly("out_of_order")
-    simulator = start_node("simulator", duration=0.5)
+    simulator = start_node("simulator", duration=0.5, answer_timeout=UNHURRIED)
     assert simulator.wait() == 0, simulator.output
     assert counted(simulator)["accepted"] == 500 and counted(simulator)["late"] >= 498
 
@@ -60,7 +64,7 @@ def test_a_slow_answer_is_late_and_its_controller_heard_again(start_node, unruly
     """One answer beyond the timeout: the last current is held, the answer is late, then the lock-step closes again."""
     start_node("road_excitation")
     unruly("slow", 200)
-    simulator = start_node("simulator", duration=0.0, answer_timeout=0.2)
+    simulator = start_node("simulator", duration=0.0, answer_timeout=NOTICED)
     simulator.wait_for("no answer to the sample at t = 0.200 s; holding the last current")
     simulator.wait_for("heard again, waiting for every answer")
     assert simulator.running
@@ -70,7 +74,7 @@ def test_two_controllers_at_once(start_node, observer):
     """Of two answers the first counts, the other is a duplicate or late; both are told."""
     for current in (1.5, 2.5):
         start_node("controller", current=current)
-    simulator = start_node("simulator", duration=1.0)
+    simulator = start_node("simulator", duration=1.0, answer_timeout=UNHURRIED)
     observer.wait_for(state="waiting")
     start_node("road_excitation")
     assert simulator.wait() == 0, simulator.output
@@ -92,7 +96,7 @@ def test_simulator_killed_and_restarted(start_node, observer, tmp_path):
     simulator = start_node("simulator", wait_for_recorder=True)
     observer.wait_until(lambda: float(observer.values.get("time", 0.0)) > 0.3)
     simulator.signal(signal.SIGKILL)
-    again = start_node("simulator", duration=0.5, speed=12.0, wait_for_recorder=True)
+    again = start_node("simulator", duration=0.5, speed=12.0, wait_for_recorder=True, answer_timeout=UNHURRIED)
     assert again.wait() == 0, again.output
     assert counted(again) == {"accepted": 500}
     assert "the samples start anew: law reset" in controller.output
@@ -108,7 +112,7 @@ def test_recorder_killed(start_node, observer, tmp_path):
     recorder = start_node("recorder", bag=tmp_path / "bag")
     start_node("road_excitation")
     start_node("controller")
-    simulator = start_node("simulator", duration=2.0, wait_for_recorder=True)
+    simulator = start_node("simulator", duration=2.0, wait_for_recorder=True, answer_timeout=UNHURRIED)
     observer.wait_until(lambda: float(observer.values.get("time", 0.0)) > 0.2)
     recorder.signal(signal.SIGKILL)
     assert simulator.wait() == 0, simulator.output
@@ -134,13 +138,13 @@ def test_dropped_samples(start, start_node):
     assert "samples 0.00" in controller.output  # apart, longer than the period
 
 
-@pytest.mark.parametrize(("seconds", "silent"), [(0.1, False), (0.6, True)])
-def test_delayed_answers(start, start_node, seconds, silent):
+@pytest.mark.parametrize(("seconds", "timeout", "silent"), [(0.1, UNHURRIED, False), (0.6, 0.3, True)])
+def test_delayed_answers(start, start_node, seconds, timeout, silent):
     """A delay within the timeout changes nothing; beyond it the loop holds the current until it hears an answer."""
     start_node("road_excitation")
     start([sys.executable, CONTROLLERS / "relay.py", "CoilCurrent", "relayed", "coil_current", "delay", seconds, 200])
     start_node("controller", *relayed("coil_current"))
-    simulator = start_node("simulator", duration=0.9, answer_timeout=0.3)
+    simulator = start_node("simulator", duration=0.9, answer_timeout=timeout)
     assert simulator.wait() == 0, simulator.output
     counts = counted(simulator)
     if silent:

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from .conftest import UNHURRIED
+
 pytestmark = [pytest.mark.system, pytest.mark.slow(reason="each fault is a loop of real processes that waits")]
 
 UNRULY = Path(__file__).parent / "controllers" / "unruly.py"
@@ -29,7 +31,7 @@ def loop(start_node):
 @pytest.mark.parametrize(("policy", "words"), [("hold", "holding the last current"), ("passive", "falling back")])
 def test_loop_runs_on_when_the_controller_dies(loop, policy, words):
     """The silence is said once, counted, and the run goes on to its end."""
-    controller, simulator = loop(duration=4.0, answer_timeout=0.2, on_silence=policy)
+    controller, simulator = loop(duration=4.0, answer_timeout=2.0, on_silence=policy)
     controller.signal(signal.SIGKILL)
     assert simulator.wait() == 0, simulator.output
     assert simulator.output.count(words) == 1
@@ -60,7 +62,7 @@ def test_nonsense_never_satisfies_the_wait(start, start_node, kind):
     """Each useless answer is counted by its kind, one a sample, and the proper one beside it keeps the loop going."""
     start_node("road_excitation")
     start([sys.executable, UNRULY, kind])
-    simulator = start_node("simulator", duration=0.5)
+    simulator = start_node("simulator", duration=0.5, answer_timeout=UNHURRIED)
     assert simulator.wait() == 0, simulator.output
     counted = dict((name, int(n)) for n, name in re.findall(r"(\d+) (\w+)", simulator.output.split("answers: ")[1]))
     outcome = "not_finite" if kind == "infinite" else kind
@@ -100,7 +102,7 @@ def test_real_time_falls_silent_as_well(start_node):
     """In real time a dead controller is noticed by the wall clock, said once and counted."""
     start_node("road_excitation")
     controller = start_node("controller")
-    simulator = start_node("simulator", pace="realtime", duration=4.0, answer_timeout=0.2, on_silence="passive")
+    simulator = start_node("simulator", pace="realtime", duration=4.0, answer_timeout=1.0, on_silence="passive")
     simulator.wait_for("running")
     controller.wait_for("first sample")
     controller.signal(signal.SIGKILL)

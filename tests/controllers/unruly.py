@@ -9,6 +9,7 @@ from sensor_msgs.msg import Imu
 from trackvib_msgs.msg import CoilCurrent
 
 NANO = 1_000_000_000
+SLOW = 5.0  # s, well beyond the answer_timeout of its test
 
 
 def shifted(stamp, nanoseconds):
@@ -41,7 +42,7 @@ def main():
         proper = CoilCurrent(sample_stamp=imu.header.stamp, current=[2.0, 2.0])
         number = (imu.header.stamp.sec * NANO + imu.header.stamp.nanosec) // 1_000_000
         if kind == "slow":  # one answer takes its time
-            time.sleep(1.0 if number == turns else 0.0)
+            time.sleep(SLOW if number == turns else 0.0)
             publisher.publish(proper)
             return
         bad = unruly(kind, imu.header.stamp)
