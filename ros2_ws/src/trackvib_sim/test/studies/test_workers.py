@@ -19,8 +19,25 @@ PATIENCE = 3.0  # s until a stranger gives up
 CREDENTIALS = ("tls_ca_file", "tls_client_cert", "tls_client_key")
 
 
+def listening():
+    """Return the addresses at which this process and its children listen."""
+    me = psutil.Process()
+    return {
+        connection.laddr
+        for process in (me, *me.children(recursive=True))
+        for connection in process.net_connections("inet")
+        if connection.status == psutil.CONN_LISTEN
+    }
+
+
 @pytest.fixture(scope="module")
-def client():
+def others():
+    """Where the tests' process listens before there is a cluster: its plug-ins may."""
+    return listening()
+
+
+@pytest.fixture(scope="module")
+def client(others):
     """The `Client` of a study's own cluster of one worker."""
     with workers(None, 1) as client:
         yield client
@@ -81,15 +98,9 @@ def test_no_server_runs_a_strangers_code(client, servers, kind, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["ours 0", "ours 1", "ours 2"]
 
 
-def test_what_listens_tells_nothing(client, servers):
+def test_what_listens_tells_nothing(others, servers):
     """Every port of the cluster's processes is on this machine alone, and is TLS or an HTTP server without pages."""
-    me = psutil.Process()
-    places = [
-        connection.laddr
-        for process in (me, *me.children(recursive=True))
-        for connection in process.net_connections("inet")
-        if connection.status == psutil.CONN_LISTEN
-    ]
+    places = listening() - others
     assert all(place.ip == "127.0.0.1" for place in places)
     pages = {f"{place.ip}:{place.port}" for place in places} - {server.removeprefix("tls://") for server in servers}
     assert pages
