@@ -103,6 +103,49 @@ def test_goes_on_where_it_was_interrupted(table1, tmp_path):
 
 
 @SLOW
+def test_a_full_disk_ends_the_study_in_one_line(start, tmp_path):
+    """Files cannot grow beyond 20 kB, so the picture is not there, nor half of it; every finished run is kept."""
+    command = [
+        sys.executable,
+        "-m",
+        "trackvib_sim.cli",
+        "study",
+        "table1",
+        "--classes",
+        "A",
+        "--speeds",
+        5,
+        "--seeds",
+        1,
+    ]
+    run = start(["prlimit", "--fsize=20000", *command])
+    assert run.wait() == 1, run.output
+    folder = tmp_path / "table1"
+    assert "error: [Errno 27] File too large: 'table1/table1.png'" in run.output and "Traceback" not in run.output
+    assert {path.name for path in folder.iterdir()} == {"cases", "table1.csv", "table1.md"}
+    kept = finished(folder)
+    assert len(kept) == len(list((folder / "cases").iterdir())) == 1
+    again = start(command)
+    assert again.wait() == 0, again.output
+    assert finished(folder) == kept and (folder / "table1.png").exists()
+
+
+@SLOW
+def test_a_folder_that_goes_ends_the_study_in_one_line(table1, tmp_path):
+    """Nothing is made in its old place; the runs that it holds are whole."""
+    run = table1(*SMALL)
+    wait_until(lambda: finished(tmp_path / "table1"), run)
+    (tmp_path / "table1").rename(tmp_path / "elsewhere")
+    assert run.wait() == 1
+    assert run.output.count("error: ") == 1 and "No such file or directory: 'table1/cases/" in run.output
+    assert "Traceback" not in run.output and not (tmp_path / "table1").exists()
+    kept = finished(tmp_path / "elsewhere")
+    again = table1(*SMALL, "--out", "elsewhere")
+    assert again.wait() == 0, again.output
+    assert finished(tmp_path / "elsewhere").items() >= kept.items()
+
+
+@SLOW
 def test_a_killed_worker_changes_nothing(table1, scheduler, tmp_path):
     """A cluster of two workers, one of them killed midway, gives the table that this machine alone gives."""
     address, process, worker = scheduler

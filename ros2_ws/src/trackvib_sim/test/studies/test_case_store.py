@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 from trackvib_sim.studies.case import Case, Result
-from trackvib_sim.studies.case_store import DECISIVE, PACKAGE, CaseStore, whole_file
+from trackvib_sim.studies.case_store import DECISIVE, PACKAGE, CaseStore
 
 pytestmark = pytest.mark.property
 
@@ -58,20 +58,6 @@ def test_a_broken_file_counts_as_missing(tmp_path, content):
     assert store.load(CASE) is None
     store.save(CASE, RESULTS[0])
     assert store.load(CASE) == RESULTS[0]
-
-
-def test_a_file_appears_only_when_it_is_whole(tmp_path):
-    """While it is written, and after an error, there is what was there before and nothing else."""
-    path = tmp_path / "table.csv"
-    path.write_text("old")
-    with pytest.raises(ZeroDivisionError), whole_file(path) as draft:
-        draft.write_text("half")
-        assert path.read_text() == "old"
-        1 / 0  # noqa: B018
-    assert [file.read_text() for file in tmp_path.iterdir()] == ["old"]
-    with whole_file(path) as draft:
-        draft.write_text("new")
-    assert [file.read_text() for file in tmp_path.iterdir()] == ["new"]
 
 
 def test_every_module_that_a_drive_runs_makes_results_void():

@@ -4,7 +4,7 @@ The file format
     limits, unfolding (of chunks), mcap_records (one record), mcap_finder (which records hold), mcap_messages
     (messages as arrays), mcap_walk (the one walk that all reading and repairing uses), mcap_summary (the index).
 A bag as a folder
-    files, metadata, qos, schemas, new_files.
+    files, metadata, qos, schemas.
 Bags that are written
     writing (new), copying (from another one), repair (completed); provenance, versions, timekeeping.
 Bags that are read

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import yaml
 
+from ..new_files import new_file
 from ..yaml_text import YamlTextError, load
-from .new_files import new_file
 
 
 def write_metadata(folder, summaries):

@@ -10,6 +10,7 @@ from mcap.exceptions import InvalidMagic
 from mcap.records import Attachment, Header, Metadata
 from mcap.writer import CompressionType, Writer
 
+from ..new_files import new_file, set_aside
 from ..yaml_text import YamlTextError, load, read_text
 from .errors import BagError
 from .files import bag_files
@@ -17,7 +18,6 @@ from .limits import TooLarge
 from .mcap_summary import examine, summary_of
 from .mcap_walk import Walk
 from .metadata import write_metadata
-from .new_files import new_file, set_aside
 from .raw_messages import NO_SCHEMA, RawMessage, walked_records
 from .writing import CHUNK, LIBRARY
 

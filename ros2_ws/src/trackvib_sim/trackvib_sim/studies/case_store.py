@@ -1,14 +1,13 @@
 """Results of cases as files, so that a study does only what no earlier one has done."""
 
 import hashlib
-import os
-from contextlib import contextmanager
 from dataclasses import astuple, dataclass
 from pathlib import Path
 from typing import Generic, TypeVar
 
 from pydantic import TypeAdapter, ValidationError
 
+from ..new_files import new_file
 from .case import Case, Result
 
 PACKAGE = Path(__file__).parents[1]
@@ -66,22 +65,11 @@ class CaseStore:
 
     def save(self, case, result):
         """Keep a result. Whatever happens, there is either a whole file or none."""
-        with whole_file(self._path(case)) as draft:
-            draft.write_bytes(self._file.dump_json(_Stored(case, result), indent=1))
+        with new_file(self._path(case)) as file:
+            file.write(self._file.dump_json(_Stored(case, result), indent=1))
 
     def _path(self, case):
         return self._folder / f"{'_'.join(map(str, (self._key, *astuple(case))))}.json"
-
-
-@contextmanager
-def whole_file(path):
-    """Give a path to write to; what was written becomes `path` at the end, and is gone after an error."""
-    draft = path.with_name(f".{os.getpid()}.{path.name}")
-    try:
-        yield draft
-        draft.replace(path)
-    finally:
-        draft.unlink(missing_ok=True)
 
 
 def program():

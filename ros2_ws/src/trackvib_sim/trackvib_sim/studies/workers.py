@@ -6,15 +6,18 @@ import signal
 from contextlib import contextmanager
 from multiprocessing import resource_tracker
 
+import dask
 from dask.system import CPU_COUNT
-from distributed import CancelledError, Client, KilledWorker, LocalCluster, TimeoutError, rpc, wait
+from distributed import CancelledError, Client, KilledWorker, LocalCluster, Security, TimeoutError, rpc, wait
 
 from .case import drive
 from .case_store import program
 
 PATIENCE = 5.0  # s for a cluster to answer
 LONG_PATIENCE = 30.0  # s for a worker that died to be started again
-_NOISY = ("distributed", "distributed.client", "tornado.application")
+_NOISY = ("distributed", "distributed.client", "tornado.application", "tornado.general")
+# scheduler and workers always have an HTTP server; without routes it has nothing to tell
+_NO_PAGES = {"distributed.scheduler.http.routes": [], "distributed.worker.http.routes": []}
 _SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
@@ -93,19 +96,24 @@ def _wait_for_worker(client, patience):
 
 
 def _local(workers):
-    """Start a cluster whose processes leave signals to this one, which then ends them."""
+    """Start a cluster that takes nothing but from itself, whose processes leave signals to this one, which ends them.
+
+    Its credentials are made for it alone; its processes get them through pipes.
+    """
     # the tracker would let signals through again when it starts
     resource_tracker.ensure_running()
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
     try:
-        return LocalCluster(
-            n_workers=workers,
-            threads_per_worker=1,
-            memory_limit=None,
-            dashboard_address=None,
-            scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},  # any free port, for a page without dashboard
-            silence_logs=logging.CRITICAL,
-        )
+        with dask.config.set(_NO_PAGES):
+            return LocalCluster(
+                n_workers=workers,
+                threads_per_worker=1,
+                memory_limit=None,
+                security=Security.temporary(),
+                dashboard_address=None,
+                scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},  # where its HTTP server is: any free port
+                silence_logs=logging.CRITICAL,
+            )
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, mask)
 
@@ -113,8 +121,13 @@ def _local(workers):
 def _check_scheduler(address):
     """Ask who is there; a `Client` would wait for ever on a server that speaks another protocol."""
 
+    try:
+        credentials = Security().get_connection_args("client")  # of Dask's configuration, as a `Client` takes them
+    except OSError as error:
+        raise WorkersError(f"the TLS credentials in Dask's configuration cannot be used: {error}") from None
+
     async def kind():
-        async with rpc(address) as server:
+        async with rpc(address, connection_args=credentials) as server:
             return (await server.identity())["type"]
 
     try:

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..case_store import whole_file
+from ...new_files import new_file
 from ..paper.paper_table import COLUMNS
 
 _KEYS = ("generation", "index", "objective", "scatter")
@@ -101,5 +101,5 @@ class History:
 
 
 def _write(path, text):
-    with whole_file(path) as draft:
-        draft.write_text(text, encoding="utf-8")
+    with new_file(path) as file:
+        file.write(text.encode())

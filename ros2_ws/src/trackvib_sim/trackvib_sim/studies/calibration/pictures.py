@@ -15,7 +15,7 @@ from .sensitivity import PER  # noqa: E402
 _WIDE = 6  # panels side by side
 
 
-def convergence_picture(path, plan, candidates):
+def convergence_picture(file, plan, candidates):
     """Draw objective and parameters of `calibration_history.Candidate`s in their order to a PNG file."""
     count = len(plan.parameters)
     deep = -(-count // _WIDE)
@@ -48,11 +48,11 @@ def convergence_picture(path, plan, candidates):
         panel.set_title(parameter.item, fontsize=8)
         panel.tick_params(which="both", labelsize=7)
     figure.suptitle("Calibration: dark is good, the ring is the best; panels reach from bound to bound", fontsize=12)
-    figure.savefig(path, dpi=110, format="png")
+    figure.savefig(file, dpi=110, format="png")
     plt.close(figure)
 
 
-def sensitivity_picture(path, plan, rows, sensitive):
+def sensitivity_picture(file, plan, rows, sensitive):
     """Draw a `sensitivity.Sensitivity` as a heat map to a PNG file: parameters by strength, the table by columns."""
     order, count = sensitive.order, len(rows)
     change = 100.0 * sensitive.change[order]
@@ -72,5 +72,5 @@ def sensitivity_picture(path, plan, rows, sensitive):
     noise = f"; noise {100.0 * sensitive.noise:.1f} %" if np.isfinite(sensitive.noise) else ""
     title = "Sensitivity at the calibrated set, the strongest parameter first; grey: a run failed"
     figure.suptitle(title + noise, fontsize=12)
-    figure.savefig(path, dpi=110, format="png")
+    figure.savefig(file, dpi=110, format="png")
     plt.close(figure)

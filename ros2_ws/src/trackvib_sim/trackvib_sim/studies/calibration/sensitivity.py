@@ -1,6 +1,7 @@
 """How strongly each number of the table depends on each parameter, by central differences."""
 
 import csv
+from io import StringIO
 from typing import NamedTuple
 
 import numpy as np
@@ -53,14 +54,15 @@ def sensitivity(candidates, history, values, progress):
     return Sensitivity(np.array(change), float(np.ma.filled(noise, np.nan)))
 
 
-def write_sensitivity(path, plan, rows, sensitive):
-    """Write a `Sensitivity` as CSV, one line a parameter, one column a number of the table."""
+def sensitivity_csv(plan, rows, sensitive):
+    """Return a `Sensitivity` as the text of a CSV file, one line a parameter, one column a number of the table."""
     names = [f"{road_class}_{speed:g}_{column}" for road_class, speed in rows for column in COLUMNS]
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["item", *names])
-        for item, changes in zip(plan.items, sensitive.change, strict=True):
-            writer.writerow([item, *(f"{value:.4g}" if np.isfinite(value) else "" for value in changes.ravel())])
+    text = StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["item", *names])
+    for item, changes in zip(plan.items, sensitive.change, strict=True):
+        writer.writerow([item, *(f"{value:.4g}" if np.isfinite(value) else "" for value in changes.ravel())])
+    return text.getvalue()
 
 
 def _sides(plan, values):

@@ -7,8 +7,9 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemaining
 
 from ...console import Description, Terminal
 from ...data import calibration_plan_file, default_vehicle_file, paper_table_file
+from ...new_files import new_file
 from ...vehicle.vehicle_file import parse_vehicle, read_vehicle
-from ..case_store import program, text_hash, whole_file
+from ..case_store import program, text_hash
 from ..paper.paper_table import error_factor, read_table
 from ..workers import workers
 from .history import History
@@ -17,7 +18,7 @@ from .pictures import convergence_picture, sensitivity_picture
 from .plan import read_plan
 from .report import report
 from .search import Candidates, search
-from .sensitivity import sensitivity, write_sensitivity
+from .sensitivity import sensitivity, sensitivity_csv
 from .vehicle_text import calibrated_vehicle_text
 
 _HASH = 16  # digits
@@ -59,14 +60,14 @@ def run_calibrate(plan_file, vehicle_file, generations, scheduler, out):
         best = history.best
         _write_vehicle(folder / "vehicle.yaml", text, plan, best.values)
         sensitive = sensitivity(candidates, around, best.values, progress)
-    with whole_file(folder / "sensitivity.csv") as draft:
-        write_sensitivity(draft, plan, list(paper), sensitive)
-    with whole_file(folder / "sensitivity.png") as draft:
-        sensitivity_picture(draft, plan, list(paper), sensitive)
-    with whole_file(folder / "convergence.png") as draft:
-        convergence_picture(draft, plan, history.candidates)
-    with whole_file(folder / "calibration.md") as draft:
-        draft.write_text(report(plan, start, history, list(paper), sensitive), encoding="utf-8")
+    with new_file(folder / "sensitivity.csv") as file:
+        file.write(sensitivity_csv(plan, list(paper), sensitive).encode())
+    with new_file(folder / "sensitivity.png") as file:
+        sensitivity_picture(file, plan, list(paper), sensitive)
+    with new_file(folder / "convergence.png") as file:
+        convergence_picture(file, plan, history.candidates)
+    with new_file(folder / "calibration.md") as file:
+        file.write(report(plan, start, history, list(paper), sensitive).encode())
     console.print(
         f"objective {best.objective:.3f}, at the start {history.candidates[0].objective:.3f}; "
         f"error factor over {len(paper)} rows {error_factor(best.ratios, 1.0):.3f}"
@@ -89,5 +90,5 @@ def _write_vehicle(path, text, plan, values):
     for parameter, value in zip(plan.parameters, values, strict=True):
         if parameter.of(vehicle) != value:
             raise ValueError(f"{path}: {parameter.item} reads {parameter.of(vehicle)}, must be {value}")
-    with whole_file(path) as draft:
-        draft.write_text(new, encoding="utf-8")
+    with new_file(path) as file:
+        file.write(new.encode())

@@ -11,7 +11,7 @@ from .scenario import QUANTITIES, SCENARIOS  # noqa: E402
 DRAWN = ("powertrain", "powertrain_wk", "force", "travel")
 
 
-def controllers_picture(rows, path):
+def controllers_picture(rows, file):
     """Draw rows (`controllers_table.Row`) to a PNG file, a column a scenario and a row a quantity."""
     scenarios = list(dict.fromkeys(row.scenario for row in rows))
     laws = sorted({row.law for row in rows if row.current is None})
@@ -32,7 +32,7 @@ def controllers_picture(rows, path):
     handles = {label: each for panel in panels.ravel()
                for each, label in zip(*panel.get_legend_handles_labels(), strict=True)}  # fmt: skip
     figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=5, fontsize=9)
-    figure.savefig(path, dpi=100, format="png")
+    figure.savefig(file, dpi=100, format="png")
     plt.close(figure)
 
 

@@ -11,14 +11,15 @@ from rich.table import Table
 
 from ...console import Description, Terminal
 from ...data import default_vehicle_file
+from ...new_files import new_file
 from ...vehicle.vehicle_file import read_vehicle
-from ..case_store import CaseStore, whole_file
+from ..case_store import CaseStore
 from ..paper.table1 import track_phase
 from ..run_missing import run_missing
 from .picture import controllers_picture
 from .report import report
 from .scenario import PASSIVE, PASSIVE_CURRENT, SCENARIOS, ControlCase, ControlResult, control
-from .table import table_rows, verdict, write_table
+from .table import table_csv, table_rows, verdict
 
 GRID = (0.7, 0.8, 0.9, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0)  # A, over which the best constant current is searched
 
@@ -54,12 +55,12 @@ def run_controllers(laws, scenarios, seeds, vehicle_file, scheduler, out):
     with Progress(*columns, console=console) as progress:
         found = run_missing(vehicle, cases(laws, scenarios, seeds), store, scheduler, progress, "runs", control)
     rows = table_rows(found)
-    with whole_file(folder / "controllers.csv") as draft:
-        write_table(draft, rows)
-    with whole_file(folder / "controllers.md") as draft:
-        draft.write_text(report(rows, seeds, path.name, text), encoding="utf-8")
-    with whole_file(folder / "controllers.png") as draft:
-        controllers_picture(rows, draft)
+    with new_file(folder / "controllers.csv") as file:
+        file.write(table_csv(rows).encode())
+    with new_file(folder / "controllers.md") as file:
+        file.write(report(rows, seeds, path.name, text).encode())
+    with new_file(folder / "controllers.png") as file:
+        controllers_picture(rows, file)
     _print(console, rows, folder)
 
 

@@ -1,6 +1,7 @@
 """Rows of the controller study, and what the laws gain over constant currents."""
 
 import csv
+from io import StringIO
 from typing import NamedTuple
 
 import numpy as np
@@ -104,14 +105,15 @@ def verdict(rows):
     return found
 
 
-def write_table(path, rows):
-    """Write rows to a CSV file: means over the seeds, and in further columns standard deviations."""
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        columns = [*QUANTITIES, *(f"{name}_std" for name in QUANTITIES)]
-        writer.writerow(["scenario", "law", "constant_current", *columns, "status"])
-        for row in rows:
-            values = [part(row.levels[name]) for part in (np.mean, np.std) for name in QUANTITIES]
-            cells = [f"{value:.6g}" if np.isfinite(value) else "" for value in values]
-            current = "" if row.current is None else f"{row.current:g}"
-            writer.writerow([row.scenario, row.law, current, *cells, "; ".join(row.failures) or GOOD])
+def table_csv(rows):
+    """Return rows as the text of a CSV file: means over the seeds, and in further columns standard deviations."""
+    text = StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    columns = [*QUANTITIES, *(f"{name}_std" for name in QUANTITIES)]
+    writer.writerow(["scenario", "law", "constant_current", *columns, "status"])
+    for row in rows:
+        values = [part(row.levels[name]) for part in (np.mean, np.std) for name in QUANTITIES]
+        cells = [f"{value:.6g}" if np.isfinite(value) else "" for value in values]
+        current = "" if row.current is None else f"{row.current:g}"
+        writer.writerow([row.scenario, row.law, current, *cells, "; ".join(row.failures) or GOOD])
+    return text.getvalue()

@@ -8,12 +8,13 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TimeRemaining
 from ...analysis.numbers import SENSORS
 from ...console import Description, Terminal
 from ...data import default_vehicle_file
+from ...new_files import new_file
 from ...road.iso8608 import FADE, Iso8608Road
 from ...simulation.simulation import RunFailed
 from ...vehicle.engine import IMPOSED_ORDER
 from ...vehicle.vehicle_file import read_vehicle
 from ..case import BAND, ENGINE_SPEED, RATES, Case
-from ..case_store import CaseStore, whole_file
+from ..case_store import CaseStore
 from ..run_missing import run_missing
 from . import paper_figures
 from .figures_report import case_in_words, report
@@ -99,11 +100,11 @@ def draw(folder, vehicle, found, comparison):
         ),
     }  # fmt: skip
     for name, (title, picture, arguments) in pictures.items():
-        with whole_file(folder / name) as path:
-            picture(path, title, *arguments)
+        with new_file(folder / name) as file:
+            picture(file, title, *arguments)
     titles = {name: title for name, (title, *_) in pictures.items()}
-    with whole_file(folder / "figures.md") as path:
-        path.write_text(report(titles, found, SHOWN, comparison, link_passing), encoding="utf-8")
+    with new_file(folder / "figures.md") as file:
+        file.write(report(titles, found, SHOWN, comparison, link_passing).encode())
     return ["figures.md", *pictures]
 
 

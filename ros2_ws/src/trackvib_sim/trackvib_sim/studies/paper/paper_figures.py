@@ -26,12 +26,12 @@ CLASS_BOUNDS = 2.0  # a class reaches from half to twice its geometric mean [ISO
 SECOND = "black"  # colour of the second solver
 
 
-def road_picture(path, title, road, speed):
+def road_picture(file, title, road, speed):
     """Draw the profile of a road as it comes at a speed, and its spectrum beside that of its class, to a PNG file.
 
     Parameters
     ----------
-    path : path-like
+    file : path-like or binary file
     title : str
     road : road.iso8608.Iso8608Road
         Rough from distance 0 on.
@@ -56,10 +56,10 @@ def road_picture(path, title, road, speed):
     spectrum.fill_between(band, line / CLASS_BOUNDS, line * CLASS_BOUNDS, color="0.85", label="bounds of the class")
     _label(spectrum, "frequency, Hz", "m²/Hz", "power spectral density of the height, third-octave bands")
     spectrum.legend()
-    _save(figure, path)
+    _save(figure, file)
 
 
-def history_picture(path, title, time, force):
+def history_picture(file, title, time, force):
     """Draw time histories of three axes: `force` maps a sensor to its accelerations (k, 3) [m/s^2] at `time` (k,)."""
     figure, plots = _figure(title, (14, 8), 3, 3, sharey="row", width_ratios=(1.0, 1.0, 0.8))
     close = time <= time[0] + ZOOM
@@ -73,15 +73,15 @@ def history_picture(path, title, time, force):
     for plot in plots[-1]:
         plot.set_xlabel("time, s")
     plots[0, -1].legend(fontsize=8)
-    _save(figure, path)
+    _save(figure, file)
 
 
-def spectrum_picture(path, title, rate, force, link_passing, engine_orders):
+def spectrum_picture(file, title, rate, force, link_passing, engine_orders):
     """Draw the vertical PSD of both sensors with the lines to expect.
 
     Parameters
     ----------
-    path, title, force
+    file, title, force
         As above.
     rate : float
         Samples a second, Hz.
@@ -103,10 +103,10 @@ def spectrum_picture(path, title, rate, force, link_passing, engine_orders):
     plot.set_ylim(top=5.0 * plot.get_ylim()[1])  # room for the names of the lines
     _label(plot, "frequency, Hz", "(m/s²)²/Hz", None)
     plot.legend(loc="lower right")
-    _save(figure, path)
+    _save(figure, file)
 
 
-def level_picture(path, title, classes, speeds, levels):
+def level_picture(file, title, classes, speeds, levels):
     """Draw RMS accelerations against speed, a line for each road class.
 
     `levels` maps a sensor to an array (classes, speeds, 3) [m/s^2] with nan where there is none.
@@ -125,10 +125,10 @@ def level_picture(path, title, classes, speeds, levels):
     for plot in plots[-1]:
         plot.set_xlabel("speed, m/s")
     plots[0, 0].legend(fontsize=8)
-    _save(figure, path)
+    _save(figure, file)
 
 
-def solver_picture(path, title, rate, force, levels):
+def solver_picture(file, title, rate, force, levels):
     """Draw the vertical PSD of the runs of two solvers and the RMS of all axes beside each other.
 
     `force` maps a solver to a dict of sensor -> accelerations (k, 3) [m/s^2], `levels` likewise to RMS values (3,).
@@ -154,7 +154,7 @@ def solver_picture(path, title, rate, force, levels):
     bars.margins(y=0.22)  # room for the legend
     _label(bars, None, "m/s²", "RMS acceleration")
     bars.legend(fontsize=8, loc="upper center", ncols=2)
-    _save(figure, path)
+    _save(figure, file)
 
 
 def _figure(title, size, *shape, **sharing):
@@ -190,6 +190,6 @@ def _mark(plot, frequency, label, colour, style, side):
                   color=colour, fontsize=8, ha=side, va="top")  # fmt: skip
 
 
-def _save(figure, path):
-    figure.savefig(path, dpi=110)
+def _save(figure, file):
+    figure.savefig(file, dpi=110, format="png")
     plt.close(figure)

@@ -4,6 +4,7 @@ Columns are in the paper's axes: X longitudinal, Y vertical, Z lateral, which ar
 """
 
 import csv
+from io import StringIO
 from typing import NamedTuple
 
 import numpy as np
@@ -60,14 +61,15 @@ def read_table(path):
         }
 
 
-def write_table(path, rows):
-    """Write rows to a CSV file that `read_table` reads, with their status and scatter in further columns."""
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow([*_KEYS, *COLUMNS, "status", *(f"{name}_std" for name in COLUMNS)])
-        for row in rows:
-            rms, scatter = ([f"{x:.6g}" if np.isfinite(x) else "" for x in part] for part in (row.rms, row.scatter))
-            writer.writerow([row.road_class, f"{row.speed:g}", *rms, row.status, *scatter])
+def table_csv(rows):
+    """Return rows as the text of a CSV file that `read_table` reads, with status and scatter in further columns."""
+    text = StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([*_KEYS, *COLUMNS, "status", *(f"{name}_std" for name in COLUMNS)])
+    for row in rows:
+        rms, scatter = ([f"{x:.6g}" if np.isfinite(x) else "" for x in part] for part in (row.rms, row.scatter))
+        writer.writerow([row.road_class, f"{row.speed:g}", *rms, row.status, *scatter])
+    return text.getvalue()
 
 
 def given(rows, paper):

@@ -9,11 +9,12 @@ from rich.table import Table
 
 from ...console import Description, Terminal
 from ...data import default_vehicle_file, paper_table_file
+from ...new_files import new_file
 from ...vehicle.vehicle_file import read_vehicle
 from ..case import BAND, GOOD, Case
-from ..case_store import CaseStore, whole_file
+from ..case_store import CaseStore
 from ..run_missing import run_missing
-from .paper_table import error_factor, given, read_table, table_rows, write_table
+from .paper_table import error_factor, given, read_table, table_csv, table_rows
 from .table1_picture import table_picture
 from .table1_report import report
 
@@ -51,12 +52,12 @@ def run_table1(classes, speeds, seeds, vehicle_file, scheduler, out):
     with Progress(*columns, console=console) as progress:
         found = run_missing(vehicle, cases(classes, speeds, seeds), store, scheduler, progress, "runs")
     rows = table_rows(found)
-    with whole_file(folder / "table1.csv") as draft:
-        write_table(draft, rows)
-    with whole_file(folder / "table1.md") as draft:
-        draft.write_text(report(rows, paper, seeds, path.name, text), encoding="utf-8")
-    with whole_file(folder / "table1.png") as draft:
-        table_picture(rows, paper, seeds, draft)
+    with new_file(folder / "table1.csv") as file:
+        file.write(table_csv(rows).encode())
+    with new_file(folder / "table1.md") as file:
+        file.write(report(rows, paper, seeds, path.name, text).encode())
+    with new_file(folder / "table1.png") as file:
+        table_picture(rows, paper, seeds, file)
     _print(console, rows, paper, folder)
 
 

@@ -16,7 +16,7 @@ AXES = ("longitudinal X", "vertical Y", "lateral Z")
 SPREAD = 0.24  # of the distance between two classes, over which the speeds of one are spread
 
 
-def table_picture(rows, paper, seeds, path):
+def table_picture(rows, paper, seeds, file):
     """Draw rows (`paper_table.Row`) and the paper's values ((class, speed) -> (6,)) beside them to a PNG file."""
     classes = sorted({row.road_class for row in rows})
     speeds = sorted({row.speed for row in rows})
@@ -40,7 +40,7 @@ def table_picture(rows, paper, seeds, path):
     band = f"{BAND[0]:g}-{BAND[1]:g} Hz"
     figure.suptitle(f"RMS accelerations beside Table 1 of [Tao2025]: {band}, paper axes, {runs}", fontsize=12)
     figure.legend(handles=_legend(speeds, colours), loc="outside lower center", ncols=len(speeds) + 3, fontsize=9)
-    figure.savefig(path, dpi=110, format="png")
+    figure.savefig(file, dpi=110, format="png")
     plt.close(figure)
 
 

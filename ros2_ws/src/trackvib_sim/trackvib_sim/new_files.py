@@ -21,6 +21,9 @@ def new_file(path, before=lambda: None):
             yield file
         before()
         part.replace(path)
+    except OSError as error:
+        error.filename = error.filename or str(path)  # a full disk does not say whose write it fails
+        raise
     finally:
         with suppress(FileNotFoundError):
             part.unlink()
