@@ -88,6 +88,18 @@ def test_files_where_the_user_stands_are_not_run(run, tmp_path, verb):
     assert not (tmp_path / "was_run").exists()
 
 
+@pytest.mark.parametrize("name", ["ä ö", "a (copy)", "a & b", "[y]", "#z", "a\nb", "a\x1b[2Jb"])
+def test_a_path_that_the_build_cannot_take_is_refused(run, tmp_path, name):
+    """At once, by one line of plain characters, before anything is made."""
+    checkout = tmp_path / name
+    shutil.copytree(ROOT / "environment", checkout / "environment")
+    shutil.copy(TRACKVIB, checkout)
+    code, output = run(checkout / "trackvib", "setup")
+    assert code == 1 and "path must not contain" in output
+    assert output.isascii() and output.rstrip("\n").isprintable()
+    assert not (checkout / ".trackvib").exists()
+
+
 @pytest.fixture
 def of_nobody():
     """A folder of a user who has nothing else, and to whom this checkout is read-only."""
