@@ -24,9 +24,7 @@ def prepare(root: Path) -> dict:
     """
     unusable = "".join(sorted(set(_UNUSABLE.findall(str(root)))))
     if unusable:
-        raise SetupError(
-            f"the checkout's path must not contain any of {ascii(unusable)} (it is {ascii(str(root))}); move it."
-        )
+        raise SetupError(f"the checkout's path must not contain any of {unusable!r} (it is {str(root)!r}); move it.")
     places = Places(root)
     ros = ros2.find(os.environ)
     setup = Setup(places, ros, _interpreter(places, ros))
