@@ -1,9 +1,11 @@
 """The environment variables that a job runs with."""
 
+import contextlib
 import json
 import os
 from pathlib import Path
 
+from environment.own_folder import own_folder
 from environment.places import Places
 from environment.ros import Ros
 
@@ -53,8 +55,8 @@ def before_workspace(places: Places, ros: Ros, environ) -> dict:
     env.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     # The shared memory of a process that was killed can block every later one; not in force with LOCALHOST, see docs.
     env.setdefault("FASTDDS_BUILTIN_TRANSPORTS", "UDPv4")
-    if os.access(places.logs, os.W_OK):  # a checkout may belong to somebody else
-        env.setdefault("ROS_LOG_DIR", str(places.logs / "ros"))
+    with contextlib.suppress(OSError):  # rclpy says itself that it has no place for its logs
+        env.setdefault("ROS_LOG_DIR", str(_ros_logs(places, environ)))
     return env
 
 
@@ -93,6 +95,11 @@ def _add_own_modules(env: dict, places: Places, user_path) -> None:
     if user_path:
         packages = sorted(str(path) for path in places.venv.glob("lib/python3.*/site-packages"))
         env["PYTHONPATH"] = os.pathsep.join([env["PYTHONPATH"], *packages, user_path])
+
+
+def _ros_logs(places: Places, environ) -> Path:
+    """Folder for the logs of rclpy; a checkout may belong to somebody else."""
+    return places.logs / "ros" if os.access(places.logs, os.W_OK) else own_folder(environ) / "log"
 
 
 def _home(places: Places) -> str:

@@ -10,6 +10,7 @@ class Places:
         self.root = root
         self.sources = root / "ros2_ws" / "src"
         self.environment = root / "environment"
+        self.starter = self.environment / "start_module.py"
         self.home = root / ".trackvib"
         self.lock = self.home / "lock"
         self.logs = self.home / "log"

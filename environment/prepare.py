@@ -1,6 +1,7 @@
 """The set-up as a table of contents: find ROS 2, do the stages that are not done, give the job's variables."""
 
 import os
+import re
 import signal
 import time
 from pathlib import Path
@@ -10,8 +11,9 @@ from environment import ros as ros2
 from environment.places import Places
 from environment.stages import Setup, job_variables, plan
 
-# Separators of PATH and of CMake's lists, and what shells and build files take for something else. Spaces are fine.
-_UNUSABLE = frozenset(":;$`'\"\\\n")
+# What the tools of the build take for itself in a path. CMake takes brackets for patterns and drops what is not ASCII;
+# the build's commands go to a shell with nothing but their spaces quoted.
+_UNUSABLE = re.compile(r"[^A-Za-z0-9 /._+=@~%-]")
 
 
 def prepare(root: Path) -> dict:
@@ -20,9 +22,9 @@ def prepare(root: Path) -> dict:
     A stage is done if its folder holds a stamp with the right key, which is written last. Any other stage, never
     begun or interrupted or out of date, is wiped and done anew. Raises SetupError if that is not possible.
     """
-    unusable = _UNUSABLE.intersection(str(root))
+    unusable = "".join(sorted(set(_UNUSABLE.findall(str(root)))))
     if unusable:
-        raise SetupError(f"the checkout's path must not contain {' '.join(sorted(unusable))} (it is {root}); move it.")
+        raise SetupError(f"the checkout's path must not contain any of {unusable!r} (it is {str(root)!r}); move it.")
     places = Places(root)
     ros = ros2.find(os.environ)
     setup = Setup(places, ros, _interpreter(places, ros))

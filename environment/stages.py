@@ -11,8 +11,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
-from environment import activate
+from environment import SetupError, activate, network
 from environment import ros as ros2
+from environment.kernels import usable
 from environment.places import Places
 from environment.ros import Ros
 from environment.steps import Task, fingerprint
@@ -22,6 +23,8 @@ from environment.system import Interpreter
 _DECISIVE = {"package.xml", "CMakeLists.txt", "pyproject.toml", "setup.py", "setup.cfg"}
 _INTERFACES = {".msg", ".srv", ".action"}
 _OTHERS = {"test", "build"}  # folders that colcon does not install from; the second is left by pip
+
+_PROBE = 4  # s that the first package's server may be silent
 
 
 class Setup(NamedTuple):
@@ -74,7 +77,7 @@ def job_variables(setup: Setup, kernels: str) -> dict:
     """Variables for a job in the finished environment; `kernels` is the key of the last stage."""
     env = activate.variables(setup.places, setup.ros, os.environ)
     # numba looks at the file of a compiled function, not at those of the functions it calls: a folder a key.
-    env["NUMBA_CACHE_DIR"] = str(setup.places.kernels / kernels[:16])
+    env["NUMBA_CACHE_DIR"] = str(usable(setup.places.kernels / kernels[:16], os.environ))
     return env
 
 
@@ -82,19 +85,25 @@ def _make_venv(setup: Setup, task: Task) -> None:
     places, ros, python = setup
     env = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
     env["PIP_USER"] = "0"  # a user's configuration may ask for --user, which venv's pip refuses
+    env.pop("PIP_CONSTRAINT", None)  # the lock says it all
     share = ["--system-site-packages"] if ros.prefix else []
     task.run([python.path, "-I", "-m", "venv", *share, str(places.venv)], env)
-    # Only what the lock has the hashes of is installed. empy comes as source, and a build environment that pip makes
-    # fetches its tools unchecked: setuptools is installed first, and empy is built with that.
-    builder = places.venv / "builder.txt"
-    builder.write_text(re.search(r"^setuptools==(?:.*\\\n)*.*\n", setup.lock_file.read_text(), re.MULTILINE)[0])
-    env["PIP_CONSTRAINT"] = builder.as_uri()  # in place of a user's own; as a URL, because a path may have a space
-    env.pop("PIP_BUILD_CONSTRAINT", None)  # pip refuses it where it makes no build environment
     # The lock is complete, so nothing has to be resolved; -I keeps pip from counting what lies under ~/.local.
     pip = [str(places.python), "-I", "-m", "pip", "--disable-pip-version-check", "--no-input", "install"]
-    how = ["--no-deps", "--require-hashes", "--no-build-isolation", "--progress-bar=off"]
-    for requirements in (builder, setup.lock_file):
-        task.run([*pip, *how, "-r", str(requirements)], env)
+    pip += ["--no-deps", "--require-hashes", "--progress-bar=off"]
+    _install_builder(setup, [*pip, "--retries=0", f"--timeout={_PROBE}"], env, task)
+    # empy comes as source: it is built with the setuptools that was just installed, not with what pip would fetch.
+    task.run([*pip, "--no-build-isolation", "-r", str(setup.lock_file)], env)
+
+
+def _install_builder(setup: Setup, pip: list, env: dict, task: Task) -> None:
+    """Install the lock's setuptools; as the first package it also shows, soon, whether packages can be had at all."""
+    builder = setup.places.venv / "builder.txt"
+    builder.write_text(re.search(r"^setuptools==(?:.*\\\n)*.*", setup.lock_file.read_text(), re.MULTILINE)[0])
+    try:
+        task.run([*pip, "-r", str(builder)], env)
+    except SetupError as error:
+        raise SetupError(f"{error}\n{network.settings(env)}") from None
 
 
 def _make_workspace(setup: Setup, task: Task) -> None:
@@ -140,7 +149,8 @@ def _colcon(places: Places, ros: Ros) -> list:
 
 
 def _make_kernels(setup: Setup, key: str, task: Task) -> None:
-    task.run([str(setup.places.python), "-m", "trackvib_sim.compile_kernels"], job_variables(setup, key))
+    places = setup.places
+    task.run([str(places.python), str(places.starter), "trackvib_sim.compile_kernels"], job_variables(setup, key))
 
 
 def _mend_first_lines(install: Path) -> None:

@@ -1,7 +1,10 @@
 """`./trackvib` itself and the stand-in for `ros2 run`."""
 
 import os
+import shutil
+import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -11,6 +14,9 @@ pytestmark = pytest.mark.system
 ROOT = Path(__file__).parents[1]
 TRACKVIB = ROOT / "trackvib"
 STAND_IN = ROOT / "environment" / "bin" / "ros2"
+NOBODY = 65534
+AS_NOBODY = ["setpriv", f"--reuid={NOBODY}", f"--regid={NOBODY}", "--clear-groups"]
+SHORT_RUN = ["run", "--duration", "3", "--one-process"]
 
 
 @pytest.fixture
@@ -70,3 +76,57 @@ def test_stand_in_steps_aside(run, tmp_path, env):
     real.chmod(0o755)
     env["PATH"] = os.pathsep.join([str(STAND_IN.parent), env["PATH"], str(real.parent)])
     assert run(STAND_IN, "topic", "list") == (0, "the real one: topic list\n")
+
+
+@pytest.mark.parametrize("verb", [["help"], ["vehicle"], SHORT_RUN], ids=lambda verb: verb[0])
+def test_files_where_the_user_stands_are_not_run(run, tmp_path, verb):
+    """A module there with the name of one that is needed is left alone, by the verb and by what it starts."""
+    for name in ("json", "click", "numpy", "yaml"):
+        (tmp_path / f"{name}.py").write_text(f"open({str(tmp_path / 'was_run')!r}, 'a').write(__name__)\n")
+    code, output = run(TRACKVIB, *verb)
+    assert code == 0, output
+    assert not (tmp_path / "was_run").exists()
+
+
+@pytest.mark.parametrize("name", ["ä ö", "a (copy)", "a & b", "[y]", "#z", "a\nb", "a\x1b[2Jb"])
+def test_a_path_that_the_build_cannot_take_is_refused(run, tmp_path, name):
+    """At once, by one line of plain characters, before anything is made."""
+    checkout = tmp_path / name
+    shutil.copytree(ROOT / "environment", checkout / "environment")
+    shutil.copy(TRACKVIB, checkout)
+    code, output = run(checkout / "trackvib", "setup")
+    assert code == 1 and "path must not contain" in output
+    assert output.rstrip("\n").isprintable()
+    assert not (checkout / ".trackvib").exists()
+
+
+@pytest.fixture
+def of_nobody():
+    """A folder of a user who has nothing else, and to whom this checkout is read-only."""
+    if os.geteuid() != 0 or not shutil.which("setpriv"):
+        pytest.skip("needs root and setpriv, to become another user")
+    if subprocess.run([*AS_NOBODY, "test", "-r", TRACKVIB, "-a", "!", "-w", ROOT / ".trackvib"]).returncode:
+        pytest.skip("another user cannot read this checkout, or can write to it")
+    folder = Path(tempfile.mkdtemp())
+    os.chown(folder, NOBODY, NOBODY)
+    yield folder
+    shutil.rmtree(folder)
+
+
+@pytest.mark.parametrize("place", ["HOME", "XDG_CACHE_HOME", "TMPDIR"])
+def test_another_user_gets_the_compiled_kernels(run, env, of_nobody, place):
+    """They are copied to the one place where he can write; then a run compiles nothing anew."""
+    compiled = _contents(Path(env["NUMBA_CACHE_DIR"]))
+    own = {"PATH": env["PATH"], "HOME": "/nonexistent", "ROS_DOMAIN_ID": env["ROS_DOMAIN_ID"], place: str(of_nobody)}
+    env.clear()
+    env.update(own)
+    command = [*AS_NOBODY, "env", "-C", of_nobody, TRACKVIB, *SHORT_RUN, "--out", of_nobody / "result"]
+    code, output = run(*command)
+    assert code == 0, output
+    (copy,) = {index.parents[1] for index in of_nobody.rglob("*.nbi")}
+    assert _contents(copy) == compiled
+
+
+def _contents(kernels):
+    """What each file of compiled code under the folder holds."""
+    return {str(file.relative_to(kernels)): file.read_bytes() for file in kernels.rglob("*.nbc")}
