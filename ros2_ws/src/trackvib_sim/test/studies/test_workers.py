@@ -105,7 +105,7 @@ def test_what_listens_tells_nothing(others, servers):
     pages = {f"{place.ip}:{place.port}" for place in places} - {server.removeprefix("tls://") for server in servers}
     assert pages
     for place in pages:
-        for page in ("", "health", "info/main/workers.html", "json/identity.json", "metrics", "sitemap.json"):
+        for page in ("", "health", "info/main/workers.html", "json/identity.json", "metrics"):
             with pytest.raises(HTTPError, match="404"):
                 urlopen(f"http://{place}/{page}", timeout=PATIENCE)
 
