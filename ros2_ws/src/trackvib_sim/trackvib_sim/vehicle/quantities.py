@@ -1,9 +1,8 @@
 """Quantities of a vehicle file: each carries value, unit and source, and is checked before its plain value is used."""
 
-from math import inf
 from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import AfterValidator, BeforeValidator, Field
 
 SOURCES = ("published", "literature", "assumed", "calibrated")
 KEYS = {"value", "unit", "source", "note"}
@@ -29,46 +28,49 @@ def _plain(unit):
     return BeforeValidator(check)
 
 
-def _flat(value):
-    """Yield what lies in lists of lists."""
-    if isinstance(value, list):
-        for each in value:
-            yield from _flat(each)
-    else:
-        yield value
+def _no_truth(value):
+    """Refuse truth values, of which pydantic would make numbers."""
+    if any(isinstance(each, bool) for each in (value if isinstance(value, list) else [value])):
+        raise ValueError(f"value is {value!r}, must be a number")
+    return value
 
 
-def _numbers(unit):
-    """Return a validator that refuses truth values, of which pydantic would make numbers, and what no vehicle has."""
+_NUMBERS = BeforeValidator(_no_truth)
+
+
+def _bounded(unit):
+    """Return a validator that refuses numbers that no vehicle has."""
     largest = LARGEST_LENGTH if unit == "m" else LARGEST
 
     def check(value):
-        for each in _flat(value):
-            if isinstance(each, bool):
-                raise ValueError(f"value is {value!r}, must be a number")
-            if isinstance(each, (int, float)) and largest < abs(each) < inf:
+        for each in value if isinstance(value, list) else [value]:
+            if isinstance(each, list):
+                check(each)
+            elif abs(each) > largest:
                 raise ValueError(f"value is {each:g}, must be from {-largest:g} to {largest:g} {unit}")
         return value
 
-    return BeforeValidator(check)
+    return AfterValidator(check)
 
 
 def scalar(unit, **limits):
     """Return the type of a finite number in `unit` within pydantic's `limits` (gt, ge, lt, le)."""
-    return Annotated[float, Field(allow_inf_nan=False, **limits), _numbers(unit), _plain(unit)]
+    return Annotated[float, Field(allow_inf_nan=False, **limits), _NUMBERS, _bounded(unit), _plain(unit)]
 
 
 def vector(unit, length=None, **limits):
     """Return the type of a list of finite numbers in `unit`, of a fixed length if one is given."""
     element = Annotated[float, Field(allow_inf_nan=False, **limits)]
-    return Annotated[list[element], Field(min_length=length or 1, max_length=length), _numbers(unit), _plain(unit)]
+    return Annotated[
+        list[element], Field(min_length=length or 1, max_length=length), _NUMBERS, _bounded(unit), _plain(unit)
+    ]
 
 
 def vectors(unit, length):
     """Return the type of a list of vectors of `length` numbers in `unit`."""
     element = Annotated[float, Field(allow_inf_nan=False)]
     row = Annotated[list[element], Field(min_length=length, max_length=length)]
-    return Annotated[list[row], Field(min_length=1), _numbers(unit), _plain(unit)]
+    return Annotated[list[row], Field(min_length=1), _NUMBERS, _bounded(unit), _plain(unit)]
 
 
 def choice(*words):
