@@ -54,6 +54,8 @@ def test_waits_and_ends_cleanly(start_node, tmp_path, name, number):
         ("recorder", {"compression": "gzip"}, ["'compression'", "'gzip'", "zstd, none"]),
         ("recorder", {"topicz": 3}, ["'topicz'", "known are", "topics"]),
         ("controller", {"sample_rate": 300}, ["'sample_rate'", "300", "divisors"]),
+        ("simulator", {"use_sim_time": 3}, ["simulator: parameter 'use_sim_time' is 3", "true or false"]),
+        ("player", {"use_sim_time": 3}, ["player: parameter 'use_sim_time' is 3", "true or false"]),
     ],
 )
 def test_bad_parameter_is_refused_by_name(start_node, tmp_path, name, parameters, words):
@@ -64,6 +66,25 @@ def test_bad_parameter_is_refused_by_name(start_node, tmp_path, name, parameters
         assert word in node.output
     assert node.output.count("error:") == 1 and "Traceback" not in node.output
     assert list(tmp_path.glob("bag*")) == []
+
+
+@SLOW
+@pytest.mark.parametrize(
+    ("name", "arguments", "words"),
+    [
+        ("road_excitation", ("--nonsense",), "arguments ['--nonsense'] are not known"),
+        ("controller", ("--ros-args", "--bogus"), "['--bogus'] are not known"),
+        ("recorder", ("--ros-args", "-p", "bag"), "parameter override rule: '-p bag'"),
+        ("one_process", ("--ros-args", "-r", "__ns:=bad"), "remap rule: '-r __ns:=bad'"),
+        ("player", ("--ros-args", "--params-file", "/nowhere"), "params file: '--params-file /nowhere'"),
+    ],
+)
+def test_bad_argument_is_refused_in_one_line(start_node, name, arguments, words):
+    """What is no argument of ROS 2 ends a node with one line: what it is, and what is accepted."""
+    node = start_node(name, *arguments)
+    assert node.wait() == 2
+    (line,) = node.output.splitlines()
+    assert line.startswith("error: ") and words in line and "accepted are --ros-args" in line
 
 
 @SLOW

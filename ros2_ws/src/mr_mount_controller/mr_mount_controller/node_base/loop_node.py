@@ -5,20 +5,29 @@ import sys
 
 import rclpy
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
-from rclpy._rclpy_pybind11 import RCLError
+from rclpy._rclpy_pybind11 import RCLError, UnknownROSArgsError
 from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
 from rclpy.experimental import EventsExecutor
+from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
+from rclpy.utilities import remove_ros_args
 
 from .listener import Listener
-from .parameters import ParameterError
+from .parameters import Parameter, ParameterError
 from .patience import wait_until
 from .plain_text import readable
 from .shared_memory import remove_unfinished_segments
 
-# rclpy declares these itself on every node
-_RCLPY_PARAMETERS = ("use_sim_time", "start_type_description_service", "qos_overrides")
+_ACCEPTED = (
+    "accepted are --ros-args and then -p NAME:=VALUE, -r FROM:=TO, --params-file FILE, --log-level LEVEL "
+    "and the others of ROS 2"
+)
+# rclpy declares these itself
+_OF_EVERY_NODE = (
+    Parameter("use_sim_time", False, "Take the time from /clock."),
+    Parameter("start_type_description_service", True, "Tell the definitions of types."),
+)
 _TICK = 0.1  # s, after which a node that has nothing to do looks at its stop flag
 
 
@@ -30,7 +39,13 @@ class LoopNode(Node):
     """A node with parameters from `Parameter` descriptions, driven by its own `run`."""
 
     def __init__(self, name, parameters):
-        super().__init__(name)
+        try:
+            super().__init__(name)
+        except InvalidParameterTypeException:  # whose words do not tell what is accepted
+            for own in _OF_EVERY_NODE:
+                if own.name in self._parameter_overrides:
+                    _checked(own, self._parameter_overrides[own.name].value, name)
+            raise
         self.settings = {parameter.name: self._declare(parameter) for parameter in parameters}
         self._inputs = []
         self._spin = None
@@ -55,7 +70,7 @@ class LoopNode(Node):
     def refuse_unknown_parameters(self):
         """Raise `ParameterError` for a value given to a parameter that the node does not have."""
         for name in self._parameter_overrides:  # rclpy has no public view of what was given but not declared
-            if not self.has_parameter(name) and not name.startswith(_RCLPY_PARAMETERS):
+            if not self.has_parameter(name):
                 known = ", ".join(sorted(self.settings))
                 raise ParameterError(f"{self.get_name()}: there is no parameter '{name}'; known are {known}")
 
@@ -97,16 +112,40 @@ class LoopNode(Node):
             value = self.declare_parameter(parameter.name, parameter.default, descriptor).value
         except (InvalidParameterTypeException, InvalidParameterValueException):
             value = self._parameter_overrides[parameter.name].value
-        try:
-            return parameter.check(value)
-        except ParameterError as error:
-            raise ParameterError(f"{self.get_name()}: {error}") from None
+        return _checked(parameter, value, self.get_name())
 
 
-def start_ros(args=None):
-    """Start ROS 2 without signal handlers of its own, and without what killed processes left in its way."""
+def _checked(parameter, value, node):
+    try:
+        return parameter.check(value)
+    except ParameterError as error:
+        raise ParameterError(f"{node}: {error}") from None
+
+
+def start_ros(args=()):
+    """Start ROS 2 without signal handlers of its own, and without what killed processes left in its way.
+
+    Raises
+    ------
+    ParameterError
+        The arguments, the program's name first, are not those of ROS 2.
+    """
     remove_unfinished_segments()
-    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+    set_logger_level("rcl", LoggingSeverity.FATAL)  # it says for itself, in more words, what the error says
+    try:
+        rclpy.init(args=list(args), signal_handler_options=SignalHandlerOptions.NO)
+    except UnknownROSArgsError as error:
+        raise ParameterError(f"arguments of ROS 2 {error} are not known; {_ACCEPTED}") from None
+    except RCLError as error:
+        if "Couldn't parse" not in str(error):
+            raise
+        # what follows is a place in its parser's source
+        reason = str(error).removeprefix("failed to initialize rcl: ").split(". Error:")[0].split(", at /")[0]
+        raise ParameterError(f"arguments of ROS 2: {reason.rstrip('.')}; {_ACCEPTED}") from None
+    finally:
+        set_logger_level("rcl", LoggingSeverity.UNSET)
+    if foreign := remove_ros_args(args)[1:]:
+        raise ParameterError(f"arguments {foreign} are not known; {_ACCEPTED}")
 
 
 def run_node(make_node, args=None, companions=()):
@@ -120,7 +159,7 @@ def run_node(make_node, args=None, companions=()):
         signal.signal(number, lambda *_: stop.append(True))
     nodes = []
     try:
-        start_ros(args)
+        start_ros(sys.argv if args is None else args)
         executor = EventsExecutor()
         for make in (*companions, make_node):
             nodes.append(make())

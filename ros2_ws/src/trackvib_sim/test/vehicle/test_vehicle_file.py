@@ -65,6 +65,8 @@ BAD = [
     (MASS, MASS.replace("9000.0", "0.0"), ("turret.mass is 0.0", "greater than 0")),
     (MASS, MASS.replace("9000.0", ".nan"), ("turret.mass is nan", "finite")),
     (MASS, MASS.replace("9000.0", ".inf"), ("turret.mass is inf", "finite")),
+    (MASS, MASS.replace("9000.0", "1e+300"), ("turret.mass", "value is 1e+300", "-1e+12 to 1e+12 kg")),
+    ("centre: {value: [-0.15, 0.0, 0.35]", "centre: {value: [0, 2000.0, 0]", ("turret.centre", "2000", "1000 m")),
     (MASS, MASS.replace("9000.0", "heavy"), ("turret.mass is 'heavy'", "number")),
     (MASS, MASS.replace("9000.0", "true"), ("turret.mass", "value is True", "must be a number")),
     (MASS, MASS.replace("9000.0", "[1.0]"), ("turret.mass is [1.0]", "number")),

@@ -2,10 +2,13 @@
 
 from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import AfterValidator, BeforeValidator, Field
 
 SOURCES = ("published", "literature", "assumed", "calibrated")
 KEYS = {"value", "unit", "source", "note"}
+# beyond these, squares and differences of a vehicle's numbers lose their digits
+LARGEST = 1e12
+LARGEST_LENGTH = 1e3  # m
 
 
 def _plain(unit):
@@ -35,22 +38,39 @@ def _no_truth(value):
 _NUMBERS = BeforeValidator(_no_truth)
 
 
+def _bounded(unit):
+    """Return a validator that refuses numbers that no vehicle has."""
+    largest = LARGEST_LENGTH if unit == "m" else LARGEST
+
+    def check(value):
+        for each in value if isinstance(value, list) else [value]:
+            if isinstance(each, list):
+                check(each)
+            elif abs(each) > largest:
+                raise ValueError(f"value is {each:g}, must be from {-largest:g} to {largest:g} {unit}")
+        return value
+
+    return AfterValidator(check)
+
+
 def scalar(unit, **limits):
     """Return the type of a finite number in `unit` within pydantic's `limits` (gt, ge, lt, le)."""
-    return Annotated[float, Field(allow_inf_nan=False, **limits), _NUMBERS, _plain(unit)]
+    return Annotated[float, Field(allow_inf_nan=False, **limits), _NUMBERS, _bounded(unit), _plain(unit)]
 
 
 def vector(unit, length=None, **limits):
     """Return the type of a list of finite numbers in `unit`, of a fixed length if one is given."""
     element = Annotated[float, Field(allow_inf_nan=False, **limits)]
-    return Annotated[list[element], Field(min_length=length or 1, max_length=length), _NUMBERS, _plain(unit)]
+    return Annotated[
+        list[element], Field(min_length=length or 1, max_length=length), _NUMBERS, _bounded(unit), _plain(unit)
+    ]
 
 
 def vectors(unit, length):
     """Return the type of a list of vectors of `length` numbers in `unit`."""
     element = Annotated[float, Field(allow_inf_nan=False)]
     row = Annotated[list[element], Field(min_length=length, max_length=length)]
-    return Annotated[list[row], Field(min_length=1), _NUMBERS, _plain(unit)]
+    return Annotated[list[row], Field(min_length=1), _NUMBERS, _bounded(unit), _plain(unit)]
 
 
 def choice(*words):

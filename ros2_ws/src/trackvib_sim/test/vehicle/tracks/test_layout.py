@@ -142,3 +142,17 @@ def test_links_that_do_not_fit_are_refused(vehicle, changed, links, long):
         else:
             with pytest.raises(TrackDoesNotFit):
                 fit_idler(other)
+
+
+@pytest.mark.parametrize(
+    ("section", "values", "words"),
+    [
+        ("hull", {"mass": 1e12}, ["tyres.radial_stiffness is", "give by", "road_wheels.radius, "]),
+        ("tyres", {"radial_stiffness": 1e-300}, ["tyres.radial_stiffness is 1e-300 N/m", "road_wheels.radius, "]),
+    ],
+)
+def test_wheels_that_sink_in_are_refused(vehicle, changed, section, values, words):
+    """Rubber that gives by more than the wheels' radius leaves no line for a track."""
+    with pytest.raises(TrackDoesNotFit) as refused:
+        fit_idler(changed(section, **values))
+    assert all(word in str(refused.value) for word in words)

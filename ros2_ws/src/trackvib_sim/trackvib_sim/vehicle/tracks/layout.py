@@ -5,7 +5,7 @@ Places are those in the hull, x and z, at static ride height.
 
 import numpy as np
 from scipy.optimize import brentq
-from scipy.spatial import ConvexHull
+from scipy.spatial import ConvexHull, QhullError
 
 from ..body_tree import GRAVITY, SIDES, STATIONS, build_body_table
 from .sprockets import pitch_radius
@@ -122,6 +122,11 @@ class _Line:
 
 def _taut_line(vehicle, travel):
     v, wheels, given = vehicle, vehicle.road_wheels, sink(vehicle)
+    if not given < wheels.radius:
+        raise TrackDoesNotFit(
+            f"tyres.radial_stiffness is {v.tyres.radial_stiffness:g} N/m, so that the road wheels give by {given:g} m "
+            f"under the vehicle's weight, must be less than road_wheels.radius, {wheels.radius:g} m"
+        )
     circles = [
         *((x, wheels.radius, wheels.radius - given) for x in v.swing_arms.wheel_x),
         *((x, z, v.carrier_rollers.radius) for x, z in zip(v.carrier_rollers.x, v.carrier_rollers.z, strict=True)),
@@ -131,7 +136,13 @@ def _taut_line(vehicle, travel):
     angle = 2.0 * np.pi * np.arange(_CORNERS) / _CORNERS
     round_about = np.stack((np.cos(angle), np.sin(angle)), axis=1)
     points = np.concatenate([np.array(circle[:2]) + circle[2] * round_about for circle in circles])
-    corner = points[ConvexHull(points).vertices]
+    try:
+        corner = points[ConvexHull(points).vertices]
+    except QhullError:
+        length, height = np.ptp(points, axis=0)
+        raise TrackDoesNotFit(
+            f"the running gear is {length:g} m long and {height:g} m high, must leave room within a track"
+        ) from None
     lowest_rear = np.argmin(np.hypot(*(corner - (min(v.swing_arms.wheel_x), given)).T))
     return _Line(np.roll(corner, -lowest_rear, axis=0))
 
