@@ -4,6 +4,7 @@ import time
 
 _TICK = 0.1  # s, after which whoever waits looks at its stop flag
 _ABSENT = 0.3  # s by which a look takes longer than asked for if the process did not run meanwhile
+_LEAST = 1e-6  # s, less than any look takes: what is left of a patience then is rounding
 _RESENT = 4.0  # s after which messages that were lost meanwhile have come again (Fast DDS: 3 s)
 
 
@@ -16,7 +17,7 @@ def wait_until(done, look, timeout=None):
     """
     waited = 0.0
     while not done():
-        if timeout is not None and waited >= timeout:
+        if timeout is not None and waited > timeout - _LEAST:
             return False
         asked = _TICK if timeout is None else min(_TICK, timeout - waited)
         began = time.monotonic()
