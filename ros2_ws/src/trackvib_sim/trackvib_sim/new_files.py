@@ -22,7 +22,8 @@ def new_file(path, before=lambda: None):
         before()
         part.replace(path)
     except OSError as error:
-        error.filename = error.filename or str(path)  # a full disk does not say whose write it fails
+        if error.errno is not None:  # else it has words of its own
+            error.filename = error.filename or str(path)  # a full disk does not say whose write it fails
         raise
     finally:
         with suppress(FileNotFoundError):
