@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 from mr_mount_controller.node_base.cdr import leading_stamp
+from rclpy.serialization import deserialize_message
+from trackvib_msgs.msg import RoadProfile
 from trackvib_sim.analysis.completeness import missing
 from trackvib_sim.bags.reading import read_recording
 
@@ -169,12 +171,20 @@ def test_what_a_bag_lacks(recorded_run, edited):
     ]
 
 
+def _late(data):
+    return leading_stamp(data) >= 2_000_000_000
+
+
+def _far_away(data):
+    return deserialize_message(data, RoadProfile).start > 20.0  # m
+
+
 @pytest.mark.parametrize(
-    ("lost", "words"),
-    [("/diagnostics", "the simulator's last word"), ("/road_profile", "road_profile from")],
+    ("lost", "which", "words"),
+    [("/diagnostics", _late, "the simulator's last word"), ("/road_profile", _far_away, "road_profile from")],
 )
-def test_a_bag_that_lacks_what_comes_rarely(edited, lost, words):
+def test_a_bag_that_lacks_what_comes_rarely(edited, lost, which, words):
     """Without its last word a simulator's counts tell nothing; without road no replay gets there."""
-    bag = edited(lambda topic, data: None if topic == lost and leading_stamp(data) >= 2_000_000_000 else data)
+    bag = edited(lambda topic, data: None if topic == lost and which(data) else data)
     (lacking,) = missing(read_recording(bag))
     assert lacking.startswith(words)
