@@ -195,6 +195,7 @@ class Observer:
         self._executor.add_node(self._node)
         self._node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, 1000)
         self.values = {}  # latest diagnostics, as text
+        self._clients = {}
 
     @property
     def node(self):
@@ -216,11 +217,16 @@ class Observer:
         self.wait_until(lambda: values.items() <= self.values.items())
         return float(self.values["time"])
 
+    def client(self, name, node="simulator"):
+        """Return a client of a service that is there; asked for beforehand, a later call takes no time to find it."""
+        if (node, name) not in self._clients:
+            self._clients[node, name] = self._node.create_client(Trigger, f"{node}/{name}")
+        self.wait_until(self._clients[node, name].service_is_ready)
+        return self._clients[node, name]
+
     def call(self, name, node="simulator"):
         """Call a service of the simulator, or of another node; returns its response."""
-        client = self._node.create_client(Trigger, f"{node}/{name}")
-        self.wait_until(client.service_is_ready)
-        future = client.call_async(Trigger.Request())
+        future = self.client(name, node).call_async(Trigger.Request())
         self.wait_until(future.done)
         return future.result()
 

@@ -62,6 +62,7 @@ def test_reset_gives_the_first_run_again(start_node, loop, observer, tmp_path):
     """After a reset stamps and counts begin anew, the law is reset, and every byte is that of the first epoch."""
     recorder = start_node("recorder", bag=tmp_path / "bag")
     nodes = loop(duration=1.5, wait_for_recorder=True)
+    observer.client("reset")
     observer.wait_until(lambda: float(observer.values.get("time", 0.0)) > 0.5)
     assert observer.call("reset").success
     assert nodes["simulator"].wait() == 0, nodes["simulator"].output
