@@ -15,7 +15,7 @@ from .node_base.listener import Refused
 from .node_base.loop_node import LoopNode, NodeError, run_node
 from .node_base.packed_message import MessageReader
 from .node_base.parameters import Parameter, ParameterError
-from .node_base.patience import wait_until
+from .node_base.patience import Patience
 from .node_base.qos import LOOP_QOS, LOOP_WRITER_QOS
 from .node_base.topics import CHASSIS_IMU, COIL_CURRENT, POWERTRAIN_IMU
 
@@ -138,7 +138,8 @@ class ControllerNode(LoopNode):
         wanted = 1 + self.settings["wait_for_recorder"]
         # no callbacks are served here: the sample at hand is the one to answer
         heard = self._currents.get_subscription_count
-        if not wait_until(lambda: heard() >= wanted or self.stopping(), lambda _: time.sleep(0.01), _PATIENCE):
+        patience = Patience(lambda _: time.sleep(0.01))
+        if not patience.wait_until(lambda: heard() >= wanted or self.stopping(), _PATIENCE):
             self.get_logger().warning(f"{heard()} of {wanted} listen to the currents, answering all the same")
 
 

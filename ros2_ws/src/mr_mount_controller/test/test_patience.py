@@ -18,7 +18,7 @@ def test_a_silent_partner_is_waited_for_as_long_as_asked(clock):
     def look(seconds):
         clock[0] += seconds
 
-    assert not patience.wait_until(lambda: False, look, 1.25)
+    assert not patience.Patience(look).wait_until(lambda: False, 1.25)
     assert clock[0] == pytest.approx(1.25)
 
 
@@ -27,7 +27,7 @@ def test_who_comes_ends_the_wait(clock, timeout):
     def look(seconds):
         clock[0] += seconds / 2
 
-    assert patience.wait_until(lambda: clock[0] >= 0.7, look, timeout)
+    assert patience.Patience(look).wait_until(lambda: clock[0] >= 0.7, timeout)
     assert clock[0] < 0.8
 
 
@@ -39,7 +39,7 @@ def test_each_look_counts_as_what_was_asked_for(clock):
         looks.append(seconds)
         clock[0] += seconds + 0.25
 
-    assert not patience.wait_until(lambda: False, look, 1.0)
+    assert not patience.Patience(look).wait_until(lambda: False, 1.0)
     assert len(looks) in (10, 11) and sum(looks) == pytest.approx(1.0)
 
 
@@ -51,5 +51,18 @@ def test_after_an_absence_patience_begins_anew(clock):
         clock[0] += seconds + (15.0 if 0.85 < clock[0] < 0.95 else 0.0)
         waited.append(clock[0])
 
-    assert patience.wait_until(lambda: clock[0] > 18.0, look, 1.0)
-    assert not patience.wait_until(lambda: False, look, 1.0)
+    assert patience.Patience(look).wait_until(lambda: clock[0] > 18.0, 1.0)
+    assert not patience.Patience(look).wait_until(lambda: False, 1.0)
+
+
+def test_an_absence_between_two_looks_counts_as_well(clock):
+    """Stopped while it publishes, say: what is lost then comes again after some seconds."""
+
+    def look(seconds):
+        clock[0] += seconds
+
+    waiting = patience.Patience(look)
+    assert waiting.wait_until(lambda: clock[0] > 0.5, 1.0)
+    clock[0] += 15.0
+    assert waiting.wait_until(lambda: clock[0] > 18.6, 0.5)
+    assert not waiting.wait_until(lambda: False, 0.5)

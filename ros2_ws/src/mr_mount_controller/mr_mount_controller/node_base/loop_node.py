@@ -15,7 +15,7 @@ from rclpy.utilities import remove_ros_args
 
 from .listener import Listener
 from .parameters import Parameter, ParameterError
-from .patience import wait_until
+from .patience import Patience
 from .plain_text import readable
 from .shared_memory import remove_unfinished_segments
 
@@ -48,7 +48,7 @@ class LoopNode(Node):
             raise
         self.settings = {parameter.name: self._declare(parameter) for parameter in parameters}
         self._inputs = []
-        self._spin = None
+        self.patience = None
         self.stopping = lambda: False
 
     def declare_more(self, parameters):
@@ -84,16 +84,16 @@ class LoopNode(Node):
 
     def spin_once(self, timeout):
         """Serve callbacks that wait; if none does, wait for one for at most `timeout` seconds."""
-        self._spin(timeout)
+        self.patience.look(timeout)
 
     def spin_until(self, condition, timeout=None):
         """Serve callbacks until `condition()`; returns whether it came true before a stop or the timeout [s]."""
-        wait_until(lambda: condition() or self.stopping(), self.spin_once, timeout)
+        self.patience.wait_until(lambda: condition() or self.stopping(), timeout)
         return condition()
 
     def prepare(self, spin, stopping):
         """Hand in the executor's spin function and the stop flag."""
-        self._spin, self.stopping = spin, stopping
+        self.patience, self.stopping = Patience(spin), stopping
 
     def _declare(self, parameter):
         descriptor = ParameterDescriptor(

@@ -9,7 +9,7 @@ from mr_mount_controller.node_base.interrupts import put_off_interrupts
 from mr_mount_controller.node_base.listener import Listener
 from mr_mount_controller.node_base.loop_node import start_ros
 from mr_mount_controller.node_base.packed_message import MessageReader
-from mr_mount_controller.node_base.patience import wait_until
+from mr_mount_controller.node_base.patience import Patience
 from mr_mount_controller.node_base.qos import LOOP_QOS, LOOP_WRITER_QOS
 from rclpy.experimental import EventsExecutor
 from sensor_msgs.msg import Imu
@@ -48,6 +48,7 @@ class ControllerTrial:
         ).subscription
         self._executor = EventsExecutor()
         self._executor.add_node(self._node)
+        self._patience = Patience(self._spin)
         self._lockstep = Lockstep(0.0, (-np.inf, np.inf))
         self._latest = None
         self._heard, self._given_up = -1, None  # latest sample answered, now and when silence fell, ns
@@ -63,7 +64,7 @@ class ControllerTrial:
         gathering = Gathering(self._present)
         while not gathering.complete():
             check()
-            self._spin(_TICK)
+            self._patience.look(_TICK)
 
     def type_hash(self):
         """Return the hash of the answers' type, as bags note it."""
@@ -78,10 +79,10 @@ class ControllerTrial:
         lockstep.publish(stamp)
         for publisher, data in zip(self._imus, (chassis, powertrain), strict=True):
             publisher.publish(data)
-        self._spin(0.0)
+        self._patience.look(0.0)
         if self._given_up is None or self._heard > self._given_up:
             self._given_up = None
-            if not wait_until(lambda: lockstep.answered, self._spin, _ANSWER_TIMEOUT):
+            if not self._patience.wait_until(lambda: lockstep.answered, _ANSWER_TIMEOUT):
                 self._given_up = self._heard
         return self._latest if lockstep.answered else None
 

@@ -7,7 +7,6 @@ from math import inf
 from builtin_interfaces.msg import Time
 from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.loop_node import NodeError
-from mr_mount_controller.node_base.patience import wait_until
 from mr_mount_controller.node_base.qos import CLOCK_QOS, LATCHED_QOS
 from rosgraph_msgs.msg import Clock
 
@@ -111,7 +110,7 @@ class RecorderLag:
     def complete_in_time(self):
         """Wait until it has written all there is, even when the node shall stop, but not for long."""
         if self.there:
-            wait_until(lambda: self._behind() <= 0, self._node.spin_once, _LAST)
+            self._node.patience.wait_until(lambda: self._behind() <= 0, _LAST)
 
     def start_anew(self):
         """Note that time has gone back to zero."""
