@@ -16,7 +16,7 @@ from peers import DrakeTree, MujocoTree, PinocchioTree
 from rich.console import Console
 from rich.progress import track
 from rich.table import Table
-from trackvib_sim.data import default_vehicle_file
+from trackvib_sim.data import find_vehicle
 from trackvib_sim.numerics.compiled import kernel
 from trackvib_sim.rui.solve import accelerations
 from trackvib_sim.rui.state import no_loads, rest_state
@@ -80,7 +80,7 @@ def random_state(bodies, random):
 def main():
     """Check, time, print; exit code 1 if the engines do not agree."""
     out = Console()
-    bodies = build_body_table(read_vehicle(default_vehicle_file())[0])
+    bodies = build_body_table(read_vehicle(find_vehicle())[0])
     installed = {name: peer for name, peer in PEERS.items() if importlib.util.find_spec(name)}
     for name in PEERS.keys() - installed.keys():
         package = name.removeprefix("py")

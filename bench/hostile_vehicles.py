@@ -19,7 +19,7 @@ import yaml
 from machine import machine
 from rich.console import Console
 from rich.table import Table
-from trackvib_sim.data import default_vehicle_file
+from trackvib_sim.data import find_vehicle
 from trackvib_sim.drawings.assembled_vehicle import assemble_vehicle
 from trackvib_sim.vehicle.equilibrium import NoEquilibrium, static_equilibrium
 from trackvib_sim.vehicle.system import Operation, build_system
@@ -86,7 +86,7 @@ def main():
     parser.add_argument("--count", type=int, default=1000, help="vehicle files")
     parser.add_argument("--seed", type=int, default=1)
     choices = parser.parse_args()
-    content, chance = yaml.safe_load(default_vehicle_file().read_text(encoding="utf-8")), random.Random(choices.seed)
+    content, chance = yaml.safe_load(find_vehicle().read_text(encoding="utf-8")), random.Random(choices.seed)
     places, tried, right, wrongs = numbers(content), Counter(), Counter(), []
     for _ in range(choices.count):
         new, done = wild(content, places, chance)

@@ -12,7 +12,7 @@ from machine import best_times, machine
 from peers import PinocchioTree
 from rich.console import Console
 from rich.table import Table
-from trackvib_sim.data import default_vehicle_file
+from trackvib_sim.data import find_vehicle
 from trackvib_sim.road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road
 from trackvib_sim.rui.state import rest_state
 from trackvib_sim.simulation.settings import Rates, RunSettings
@@ -48,7 +48,7 @@ class Drive:
 
 def main():
     """Drive, time, print."""
-    vehicle, _ = read_vehicle(default_vehicle_file())
+    vehicle, _ = read_vehicle(find_vehicle())
     bodies = build_body_table(vehicle)
     drive = Drive(vehicle)
     peers = {"tree": PinocchioTree(bodies, GRAVITY), "one body": PinocchioTree(bodies[:1], GRAVITY)}

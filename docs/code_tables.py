@@ -11,7 +11,7 @@ from mr_mount_controller.laws import find_law, shipped_laws
 from mr_mount_controller.mount import HIGHEST_CURRENT, LOWEST_CURRENT, current_for_damping, damping, stiffness
 from mr_mount_controller.node import PARAMETERS as CONTROLLER
 from mr_mount_controller.node_base.topics import TOPICS
-from trackvib_sim.data import default_vehicle_file
+from trackvib_sim.data import find_vehicle
 from trackvib_sim.drawings.vehicle_table import Figure, figures, parameters
 from trackvib_sim.drawings.vehicle_table import Parameter as VehicleParameter
 from trackvib_sim.nodes.player import PARAMETERS as PLAYER
@@ -99,7 +99,7 @@ def vehicle_parameters():
 
 
 def _vehicle():
-    return default_vehicle_file().read_text(encoding="utf-8")
+    return find_vehicle().read_text(encoding="utf-8")
 
 
 def _parameter(each):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from mr_mount_controller.laws import find_law, known_laws
 from trackvib_sim.bags.reading import read_recording
-from trackvib_sim.data import default_vehicle_file
+from trackvib_sim.data import find_vehicle
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.closed_loop import run_closed_loop
 from trackvib_sim.simulation.settings import Rates, RunSettings
@@ -25,7 +25,7 @@ ROAD = {"road_class": "E", "seed": 1, "level_until": 1.0, "fade": 1.0}
 @pytest.fixture(scope="module")
 def simulation():
     """The vehicle as the simulator node has it by default; reset for each law."""
-    vehicle, _ = read_vehicle(default_vehicle_file())
+    vehicle, _ = read_vehicle(find_vehicle())
     return Simulation(vehicle, RunSettings(Operation(10.0, 1650.0, False, 0.25), Rates(), 1.0))
 
 

@@ -20,7 +20,7 @@ import sys
 import trackvib_sim as tv
 from mr_mount_controller.laws import find_law
 
-vehicle, _ = tv.read_vehicle(tv.default_vehicle_file())
+vehicle, _ = tv.read_vehicle(tv.find_vehicle())
 settings = tv.RunSettings(tv.Operation(10.0, 1650.0, False), tv.Rates(), passive_current=1.0)
 record = tv.run_closed_loop(tv.Simulation(vehicle, settings), tv.Iso8608Road("E", 1), find_law("skyhook")(1e-3), 200)
 print(record.specific_force.shape)

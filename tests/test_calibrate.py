@@ -6,7 +6,7 @@ import time
 
 import pytest
 import yaml
-from trackvib_sim.data import default_vehicle_file
+from trackvib_sim.data import find_vehicle
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
 pytestmark = [pytest.mark.system, pytest.mark.slow(reason="searches over many drives")]
@@ -77,7 +77,7 @@ def check_files(folder):
     vehicle, text = read_vehicle(folder / "vehicle.yaml")
     assert vehicle.tracks.pretension == float(best["tracks.pretension"])
     assert vehicle.sprockets.z == [float(best["sprockets.z[0]"])]
-    pairs = zip(default_vehicle_file().read_text().splitlines(), text.splitlines(), strict=True)
+    pairs = zip(find_vehicle().read_text().splitlines(), text.splitlines(), strict=True)
     assert sum(old != new for old, new in pairs) == 2
     for item, (low, high) in BOUNDS.items():
         assert low <= float(best[item]) <= high

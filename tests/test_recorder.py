@@ -22,7 +22,7 @@ from std_msgs.msg import String
 from trackvib_msgs.msg import MountState
 from trackvib_sim.bags.contents import contents
 from trackvib_sim.bags.repair import repair
-from trackvib_sim.data import default_vehicle_file
+from trackvib_sim.data import find_vehicle
 from trackvib_sim.nodes.messages import ImuMessage, MountMessage
 from trackvib_sim.vehicle.mr_mounts import new_mount_sample
 
@@ -193,7 +193,7 @@ def test_bag_says_what_made_it(start_node, start, tmp_path):
     recorder.signal(signal.SIGINT)
     assert recorder.wait() == 0, recorder.output
     bag = tmp_path / "bag"
-    assert attachment(bag, "vehicle.yaml") == default_vehicle_file().read_text(encoding="utf-8")
+    assert attachment(bag, "vehicle.yaml") == find_vehicle().read_text(encoding="utf-8")
     assert yaml.safe_load(attachment(bag, "versions.yaml"))["numpy"] == np.__version__
     road = yaml.safe_load(attachment(bag, "parameters/road_excitation.yaml"))
     assert road["/road_excitation"]["ros__parameters"]["seed"] == 7

@@ -15,7 +15,7 @@ from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.bags.writing import BagWriter
 from trackvib_sim.commands.replay_law import run_replay_law
 from trackvib_sim.commands.replay_verify import verify
-from trackvib_sim.data import default_vehicle_file
+from trackvib_sim.data import find_vehicle
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.closed_loop import run_closed_loop
 from trackvib_sim.simulation.settings import Rates, RunSettings
@@ -49,7 +49,7 @@ def rerun(recorded_run, tmp_path_factory):
 
 def test_a_rerun_is_the_run_under_that_law(rerun):
     """On the recorded road alone, to the last bit what the loop in process gives on the road itself."""
-    vehicle, _ = read_vehicle(default_vehicle_file())
+    vehicle, _ = read_vehicle(find_vehicle())
     simulation = Simulation(vehicle, RunSettings(Operation(10.0, 1650.0, False, 0.25), Rates(), 1.0))
     record = run_closed_loop(simulation, Iso8608Road("E", 1, 8.0, 8.0), Passive(1e-3), 3200)
     drive = read_recording(rerun / "bag")
@@ -71,7 +71,7 @@ def test_a_rerun_leaves_a_whole_bag(rerun, recorded_run):
     assert new.provenance["replay"]["law"] == "passive"
     assert set(contents(rerun / "bag").attachments) == set(contents(recorded_run / "bag").attachments)
     assert "law: passive" in attachment(rerun / "bag", "parameters/controller.yaml")
-    assert attachment(rerun / "bag", "vehicle.yaml") == default_vehicle_file().read_text(encoding="utf-8")
+    assert attachment(rerun / "bag", "vehicle.yaml") == find_vehicle().read_text(encoding="utf-8")
     assert verify(rerun / "bag", Console(quiet=True))[0]
 
 

@@ -17,7 +17,7 @@ from rclpy.serialization import deserialize_message
 from rosbags.highlevel import AnyReader
 from rosbags.rosbag2 import Reader
 from trackvib_sim.bags.reading import read_recording
-from trackvib_sim.data import default_vehicle_file
+from trackvib_sim.data import find_vehicle
 from trackvib_sim.nodes.topic_choice import message_type
 from trackvib_sim.numerics.units import NANO
 from trackvib_sim.road.iso8608 import Iso8608Road
@@ -102,7 +102,7 @@ def test_another_seed_gives_another_run(first, tmp_path):
 
 def test_loop_in_one_process_is_identical(drive):
     """The same vehicle, road and law in one process give the same samples and currents to the last bit."""
-    vehicle, _ = read_vehicle(default_vehicle_file())
+    vehicle, _ = read_vehicle(find_vehicle())
     simulation = Simulation(vehicle, RunSettings(Operation(10.0, 1650.0, False, 0.25), Rates(), 1.0))
     record = run_closed_loop(simulation, Iso8608Road("E", 1, 8.0, 8.0), Skyhook(1e-3), SAMPLES)
     np.testing.assert_array_equal(record.specific_force[:, 0], drive.chassis.specific_force)

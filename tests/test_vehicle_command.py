@@ -2,7 +2,7 @@
 
 import pytest
 import yaml
-from trackvib_sim.data import default_vehicle_file
+from trackvib_sim.data import find_vehicle
 
 pytestmark = pytest.mark.system
 SLOW = pytest.mark.slow(reason="each case starts the command line")
@@ -26,7 +26,7 @@ def other(tmp_path):
     """Write the shipped vehicle file with another value of one item: `other("hull", "mass", 1.0)`."""
 
     def make(section, item, value):
-        content = yaml.safe_load(default_vehicle_file().read_text(encoding="utf-8"))
+        content = yaml.safe_load(find_vehicle().read_text(encoding="utf-8"))
         content[section][item]["value"] = value
         path = tmp_path / "mine.yaml"
         path.write_text(yaml.safe_dump(content), encoding="utf-8")

@@ -12,7 +12,9 @@ setup(
     license="Apache-2.0",
     python_requires=">=3.10",
     packages=find_packages(exclude=["test*"]),
-    package_data={name: ["py.typed", "*.pyi", "rui/*.pyi", "analysis/report/templates/*", "data/*.yaml", "data/*.csv"]},
+    package_data={
+        name: ["py.typed", "*.pyi", "rui/*.pyi", "analysis/report/templates/*", "data/**/*.yaml", "data/*.csv"]
+    },
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{name}"]),
         # colcon builds from links to what is listed here, and finds no other pyproject.toml

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import settings
 from scipy.spatial.transform import Rotation
-from trackvib_sim.data import default_vehicle_file
+from trackvib_sim.data import find_vehicle
 from trackvib_sim.road.feeder import RoadFeeder
 from trackvib_sim.rui.state import Loads, TreeState
 from trackvib_sim.rui.sweeps.articulated import CutOffset, new_cuts, open_cuts
@@ -29,7 +29,7 @@ settings.load_profile("unit")
 @pytest.fixture(scope="session")
 def vehicle():
     """The vehicle that comes with the package."""
-    return read_vehicle(default_vehicle_file())[0]
+    return read_vehicle(find_vehicle())[0]
 
 
 @pytest.fixture(scope="session")

@@ -1,6 +1,8 @@
 # the vehicle
-from .data import default_vehicle_file as default_vehicle_file
+from .data import find_vehicle as find_vehicle
+from .data import vehicle_names as vehicle_names
 from .vehicle.parameters import Vehicle as Vehicle
+from .vehicle.sensors import Sensor as Sensor
 from .vehicle.system import Operation as Operation
 from .vehicle.vehicle_file import VehicleFileError as VehicleFileError
 from .vehicle.vehicle_file import read_vehicle as read_vehicle

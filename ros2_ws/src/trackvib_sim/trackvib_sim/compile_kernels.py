@@ -2,7 +2,7 @@
 
 from mr_mount_controller.laws.passive import Passive
 
-from .data import default_vehicle_file
+from .data import find_vehicle
 from .numerics.units import NANO
 from .road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road
 from .simulation.closed_loop import run_closed_loop
@@ -15,7 +15,7 @@ from .vehicle.vehicle_file import read_vehicle
 
 def main():
     """Run both loops in one process for two periods."""
-    vehicle, _ = read_vehicle(default_vehicle_file())
+    vehicle, _ = read_vehicle(find_vehicle())
     settings = RunSettings(Operation(10.0, 1650.0, False), Rates(), 1.0)
     simulation = Simulation(vehicle, settings)
     road = Iso8608Road("E", 1, LEVEL_UNTIL, FADE)

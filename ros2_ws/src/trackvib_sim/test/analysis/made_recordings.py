@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 from trackvib_sim.bags.recording import Answers, Inertial, LoopCounts, Mounts, Odometry, Recording
-from trackvib_sim.data import default_vehicle_file
+from trackvib_sim.data import find_vehicle
 
 MS = 1_000_000  # ns
 
@@ -34,6 +34,6 @@ def made_recording(milliseconds, chassis=None, powertrain=None, speed=10.0):
             "parameters of /ns/road_excitation": {"level_until": "8.0", "fade": "8.0"},
         },
         counts=Counter({"/chassis/imu": count}),
-        vehicle=default_vehicle_file().read_text(encoding="utf-8"),
+        vehicle=find_vehicle().read_text(encoding="utf-8"),
         complete=True,
     )

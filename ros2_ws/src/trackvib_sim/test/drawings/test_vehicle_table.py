@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 import yaml
-from trackvib_sim.data import default_vehicle_file
+from trackvib_sim.data import find_vehicle
 from trackvib_sim.drawings.vehicle_table import figures, longest_step, parameters
 from trackvib_sim.vehicle.vehicle_file import parse_vehicle
 
@@ -13,7 +13,7 @@ from trackvib_sim.vehicle.vehicle_file import parse_vehicle
 @pytest.fixture(scope="module")
 def text():
     """The shipped vehicle file."""
-    return default_vehicle_file().read_text(encoding="utf-8")
+    return find_vehicle().read_text(encoding="utf-8")
 
 
 @pytest.mark.property

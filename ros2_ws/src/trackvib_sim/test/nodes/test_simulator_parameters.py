@@ -3,7 +3,7 @@
 import pytest
 import yaml
 from mr_mount_controller.node_base.parameters import ParameterError
-from trackvib_sim.data import default_vehicle_file
+from trackvib_sim.data import find_vehicle
 from trackvib_sim.nodes.simulator_parameters import PARAMETERS, prepare
 
 pytestmark = pytest.mark.property
@@ -14,7 +14,7 @@ def refusal(tmp_path):
     """A function that returns with which message values are refused; `vehicle` changes items of the shipped file."""
 
     def refuse(vehicle=(), **values):
-        content = yaml.safe_load(default_vehicle_file().read_text(encoding="utf-8"))
+        content = yaml.safe_load(find_vehicle().read_text(encoding="utf-8"))
         for (section, item), value in dict(vehicle).items():
             content[section][item]["value"] = value
         file = tmp_path / "my.yaml"
@@ -32,7 +32,7 @@ def test_defaults_make_a_simulation(vehicle):
     simulation, usable, text = prepare({parameter.name: parameter.default for parameter in PARAMETERS})
     assert simulation.settings.operation.speed == 10.0 and not simulation.road_is_enough()
     assert usable.tolist() == [0.7, 4.0]
-    assert text == default_vehicle_file().read_text(encoding="utf-8")
+    assert text == find_vehicle().read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(

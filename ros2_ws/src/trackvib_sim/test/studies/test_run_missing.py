@@ -2,7 +2,7 @@
 
 import pytest
 from rich.progress import Progress
-from trackvib_sim.data import default_vehicle_file
+from trackvib_sim.data import find_vehicle
 from trackvib_sim.studies.case import drive
 from trackvib_sim.studies.case_store import CaseStore
 from trackvib_sim.studies.paper.table1 import cases
@@ -18,7 +18,7 @@ NOBODY = "tcp://127.0.0.1:1"  # where no scheduler is
 def test_only_missing_cases_are_done(vehicle, tmp_path):
     """Workers give what a run in this process gives; a second call needs none, a further case does."""
     wanted = cases("A", (20.0,), 2)
-    store = CaseStore(tmp_path, default_vehicle_file().read_text())
+    store = CaseStore(tmp_path, find_vehicle().read_text())
     with Progress(disable=True) as progress:
         found = run_missing(vehicle, wanted, store, None, progress, "runs")
         assert found[wanted[0]] == drive(vehicle, wanted[0])

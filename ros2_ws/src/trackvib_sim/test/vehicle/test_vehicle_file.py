@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import yaml
-from trackvib_sim.data import default_vehicle_file
+from trackvib_sim.data import find_vehicle
 from trackvib_sim.vehicle.quantities import SOURCES
 from trackvib_sim.vehicle.vehicle_file import VehicleFileError, parse_vehicle, read_vehicle
 
@@ -11,7 +11,7 @@ from trackvib_sim.vehicle.vehicle_file import VehicleFileError, parse_vehicle, r
 @pytest.fixture(scope="module")
 def content():
     """The shipped file as text."""
-    return default_vehicle_file().read_text(encoding="utf-8")
+    return find_vehicle().read_text(encoding="utf-8")
 
 
 def refusal(text):
@@ -24,7 +24,7 @@ def refusal(text):
 @pytest.mark.property
 def test_shipped_file_loads(content):
     """The shipped file is accepted, comes back with its text, and its values are those written in it."""
-    vehicle, text = read_vehicle(default_vehicle_file())
+    vehicle, text = read_vehicle(find_vehicle())
     assert text == content
     for section, items in yaml.safe_load(content).items():
         for name, quantity in items.items():

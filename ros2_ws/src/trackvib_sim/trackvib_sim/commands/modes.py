@@ -6,7 +6,7 @@ from pathlib import Path
 from rich.table import Table
 
 from ..console import Terminal
-from ..data import default_vehicle_file
+from ..data import find_vehicle
 from ..drawings.mode_pictures import mode_pictures
 from ..rui.linear.modes import describe, modes
 from ..vehicle.linear_vehicle import build_linear_vehicle
@@ -22,7 +22,7 @@ def run_modes(current, highest, picture):
     """Print the table of all modes up to `highest` [Hz] at a coil current [A] and draw the lowest oscillations."""
     if not Path(picture).absolute().parent.is_dir():
         raise ValueError(f"picture {picture}: its folder must exist")
-    vehicle, _ = read_vehicle(default_vehicle_file())
+    vehicle, _ = read_vehicle(find_vehicle())
     low, high = vehicle.mr_mounts.current_range
     if not low <= current <= high:
         raise ValueError(

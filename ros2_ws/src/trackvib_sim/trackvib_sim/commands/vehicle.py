@@ -7,7 +7,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ..console import Terminal
-from ..data import default_vehicle_file
+from ..data import find_vehicle
 from ..drawings.vehicle_picture import vehicle_picture
 from ..drawings.vehicle_table import Figure, Parameter, figures, parameters
 from ..vehicle.vehicle_file import read_vehicle
@@ -26,7 +26,7 @@ def run_vehicle(vehicle_file, picture):
     """
     if not Path(picture).absolute().parent.is_dir():
         raise ValueError(f"picture {picture}: its folder must exist")
-    path = vehicle_file or default_vehicle_file()
+    path = find_vehicle(vehicle_file)
     vehicle, text = read_vehicle(path)
     with whole_or_none(Path(picture)) as (file,):
         vehicle_picture(vehicle, file)

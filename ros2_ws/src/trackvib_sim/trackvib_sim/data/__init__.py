@@ -1,19 +1,38 @@
-"""The files that come with the package: vehicle, calibration plan, part of the paper's table."""
+"""The files that come with the package: vehicles, calibration plan, part of the paper's table."""
 
 from importlib.resources import files
 from pathlib import Path
 
+DEFAULT_VEHICLE = "tao2025"
 
-def default_vehicle_file() -> Path:
-    """Return the path of the vehicle that comes with the package.
+
+def vehicle_names() -> list[str]:
+    """Return the names of the vehicles that come with the package, the default one first.
 
     Examples
     --------
     >>> import trackvib_sim as tv
-    >>> tv.default_vehicle_file().name
-    'vehicle.yaml'
+    >>> tv.vehicle_names()[0]
+    'tao2025'
     """
-    return _path("vehicle.yaml")
+    names = sorted(path.stem for path in _path("vehicles").glob("*.yaml"))
+    return sorted(names, key=lambda name: name != DEFAULT_VEHICLE)
+
+
+def find_vehicle(name: str | Path | None = None) -> Path:
+    """Return the path of a vehicle that comes with the package by name, or a path as it is.
+
+    Without a name it is the default vehicle's. A file is preferred to a vehicle of the same name if it is written with
+    a folder or an ending.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> tv.find_vehicle().name, tv.find_vehicle("my_own.yaml").name
+    ('tao2025.yaml', 'my_own.yaml')
+    """
+    name = str(name or DEFAULT_VEHICLE)
+    return _path(f"vehicles/{name}.yaml") if name in vehicle_names() else Path(name)
 
 
 def calibration_plan_file() -> Path:

@@ -13,7 +13,7 @@ matplotlib.use("Agg")  # files only: no display is needed
 
 import matplotlib.pyplot as plt  # noqa: E402
 
-from ..data import default_vehicle_file  # noqa: E402
+from ..data import find_vehicle  # noqa: E402
 from ..rui.reference.placement import parent_rows  # noqa: E402
 from ..rui.reference.reroot import reroot  # noqa: E402
 from ..vehicle.body_tree import build_body_table  # noqa: E402
@@ -71,7 +71,7 @@ def _layout(bodies):
 
 def main():
     """Draw the vehicle."""
-    table = build_body_table(read_vehicle(default_vehicle_file())[0])
+    table = build_body_table(read_vehicle(find_vehicle())[0])
     topology_picture(reroot(table, "recoil_part"), sys.argv[1])
 
 

@@ -6,7 +6,7 @@ from mr_mount_controller.node_base.parameters import Parameter, ParameterError
 from mr_mount_controller.node_base.topics import VEHICLE_DESCRIPTION
 
 from ..bags.provenance import parameters_with
-from ..data import default_vehicle_file
+from ..data import find_vehicle
 from ..simulation.settings import Rates, RunSettings
 from ..simulation.simulation import Simulation
 from ..vehicle.coil import usable_current
@@ -58,7 +58,7 @@ def prepare(values):
         A value does not fit the vehicle, or the others.
     """
     try:
-        vehicle, text = read_vehicle(values["vehicle_file"] or default_vehicle_file())
+        vehicle, text = read_vehicle(find_vehicle(values["vehicle_file"]))
     except VehicleFileError as error:
         raise ParameterError(f"simulator: parameter 'vehicle_file': {error}") from None
     return simulation_of(vehicle, values), usable_current(vehicle), text

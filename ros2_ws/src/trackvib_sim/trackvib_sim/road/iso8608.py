@@ -33,7 +33,9 @@ def coherence(frequency):
 
 @dataclass(frozen=True)
 class Iso8608Road:
-    """A road of one class without end, level before `level_until` and then faded in over `fade` [m].
+    """A road of one class without end, level up to `level_until` on both sides of its beginning, then faded in over `fade`.
+
+    Both in m.
 
     Sample i lies at distance i * `SPACING`. Harmonics lie one in each of `HARMONICS` logarithmic bands, at a random
     place of it, so that the profile has no period.
@@ -85,7 +87,7 @@ def _superpose(heights, first, spacing, frequency, weights, phases, level_until,
             shared = weights[0, h] * np.cos(angle + phases[0, h])
             left += shared + weights[1, h] * np.cos(angle + phases[1, h])
             right += shared + weights[1, h] * np.cos(angle + phases[2, h])
-        progress = min(max((distance - level_until) / fade, 0.0), 1.0)
+        progress = min(max((abs(distance) - level_until) / fade, 0.0), 1.0)
         window = 0.5 - 0.5 * np.cos(np.pi * progress)
         heights[0, i] = window * left
         heights[1, i] = window * right

@@ -46,7 +46,7 @@ def run_closed_loop(simulation: Simulation, road: HasHeights, law: ControlLaw, p
 
     >>> import trackvib_sim as tv
     >>> from mr_mount_controller.laws import find_law
-    >>> vehicle, _ = tv.read_vehicle(tv.default_vehicle_file())
+    >>> vehicle, _ = tv.read_vehicle(tv.find_vehicle())
     >>> settings = tv.RunSettings(tv.Operation(10.0, 1650.0, False), tv.Rates(), passive_current=1.0)
     >>> road, law = tv.Iso8608Road("E", seed=1), find_law("skyhook")(1e-3)
     >>> record = tv.run_closed_loop(tv.Simulation(vehicle, settings), road, law, periods=100)

@@ -42,14 +42,14 @@ def run_open_loop(
     Examples
     --------
     >>> import trackvib_sim as tv
-    >>> vehicle, _ = tv.read_vehicle(tv.default_vehicle_file())
+    >>> vehicle, _ = tv.read_vehicle(tv.find_vehicle())
     >>> settings = tv.RunSettings(tv.Operation(10.0, 1650.0, False), tv.Rates(), passive_current=1.0)
     >>> record = tv.run_open_loop(tv.Simulation(vehicle, settings), tv.Iso8608Road("C", seed=7), periods=100)
     >>> bool(abs(record.speed.mean() - 10.0) < 0.1)  # the driver keeps the speed, m/s
     True
     """
     feeder = RoadFeeder(road, HORIZON)
-    current = np.full(2, simulation.settings.passive_current)
+    current = np.full(simulation.coils, simulation.settings.passive_current)
     force = np.zeros((periods, *simulation.sample.specific_force.shape))
     speed = np.zeros(periods)
     for first in range(0, periods, _CHUNK):

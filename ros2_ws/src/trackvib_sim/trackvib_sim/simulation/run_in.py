@@ -13,7 +13,7 @@ from .step import REASONS, Sensors, Status, advance, new_sample
 
 DURATION = 3.0  # s; the slowest motion, of the driver's speed control, has a time constant of 0.9 s
 _SPACING = 1.0  # m
-_BEHIND = 10.0  # m
+_AROUND = 10.0  # m
 
 
 class CannotRoll(ValueError):
@@ -34,12 +34,13 @@ def run_in(vehicle, system, settings):
     if run_up:
         state.crank_angle[0] = angle_before(system.engine, DURATION + run_up.begin)
     assemble_tracks(vehicle, system, state, speed, settings.operation.track_phase)
-    samples = int((2.0 * _BEHIND + 1.5 * DURATION * speed) / _SPACING) + 2
-    road = Road(int(-_BEHIND / _SPACING), _SPACING, np.zeros((2, samples)))
-    sensors = Sensors(np.zeros(0, int), np.zeros((0, 3)))
+    way = 1.5 * DURATION * speed
+    samples = int((2.0 * _AROUND + abs(way)) / _SPACING) + 2
+    road = Road(int((min(way, 0.0) - _AROUND) / _SPACING), _SPACING, np.zeros((2, samples)))
+    sensors = Sensors(np.zeros(0, int), np.zeros((0, 3)), np.zeros((0, 9)))
     steps = round(DURATION / system.dt)
-    demanded = np.full(2, settings.passive_current)
-    status = advance(system, state, road, demanded, steps, work, sensors, new_sample(sensors))
+    demanded = np.full(system.mounts.coils, settings.passive_current)
+    status = advance(system, state, road, demanded, steps, work, sensors, new_sample(sensors, system.mounts))
     if status != Status.GOOD:
         raise CannotRoll(
             f"the vehicle cannot roll at {speed:g} m/s on a level road: {REASONS[status]}; check the vehicle file"
@@ -52,6 +53,8 @@ def _back_at_start(state):
     """Shift everything by the hull's x and y."""
     nodes = state.tracks.nodes.reshape(2, -1, STRIDE)
     for axis in range(2):
-        nodes[:, NodeOffset.PLACE + axis] -= state.tree.position[0, axis]
+        way = state.tree.position[0, axis]
+        nodes[:, NodeOffset.PLACE + axis] -= way
+        state.tree.position[1:, axis] -= way
         state.tree.position[0, axis] = 0.0
     return state

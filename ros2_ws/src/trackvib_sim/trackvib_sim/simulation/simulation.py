@@ -9,6 +9,7 @@ import numpy as np
 from ..numerics.units import NANO
 from ..road.store import RoadStore
 from ..vehicle.parameters import Vehicle
+from ..vehicle.sensors import Sensor, sensors_of
 from ..vehicle.system import body_rows, build_system, new_work
 from .run_in import run_in
 from .settings import RunSettings
@@ -49,9 +50,10 @@ class Simulation:
 
     Attributes
     ----------
+    sensors : list of vehicle.sensors.Sensor
     sample : step.Sample
-        Of the last control period; rows `CHASSIS` and `POWERTRAIN` are the two ends of the mounts, in the middle
-        between left and right; the probes follow. Before the first period only its state, not its means, is filled.
+        Of the last control period, a row a sensor, `CHASSIS` and `POWERTRAIN` first; the probes follow. Before the
+        first period only its state, not its means, is filled.
     state : vehicle.system.State
     road : road.store.RoadStore
         To be filled by the caller, as far ahead as `road_is_enough` asks.
@@ -61,10 +63,10 @@ class Simulation:
     Examples
     --------
     >>> import trackvib_sim as tv
-    >>> vehicle, _ = tv.read_vehicle(tv.default_vehicle_file())
+    >>> vehicle, _ = tv.read_vehicle(tv.find_vehicle())
     >>> settings = tv.RunSettings(tv.Operation(10.0, 1650.0, False), tv.Rates(), passive_current=1.0)
     >>> simulation = tv.Simulation(vehicle, settings)
-    >>> simulation.sample.mounts.current  # left and right, A
+    >>> simulation.sample.mounts.current  # by coil, A
     array([1., 1.])
     """
 
@@ -72,14 +74,9 @@ class Simulation:
         self.settings = settings
         self.system = build_system(vehicle, settings.operation, 1.0 / settings.rates.physics)
         self._initial = run_in(vehicle, self.system, settings)
-        mounts = self.system.mounts
-        rows = body_rows(vehicle, self.system.tree)
-        self.sensors = Sensors(
-            np.array([mounts.hull, mounts.powertrain, *(rows[probe.body] for probe in probes)]),
-            np.stack((mounts.lower.mean(0), mounts.upper.mean(0), *(probe.place for probe in probes))),
-        )
-        reach = max(abs(x) for x in (*vehicle.swing_arms.wheel_x, *vehicle.idlers.x, *vehicle.sprockets.x))
-        self._reach = reach + _MARGIN
+        self.sensors = sensors_of(vehicle)
+        self._points = _points([*self.sensors, *probes], body_rows(vehicle, self.system.tree))
+        self._reach = max(abs(vehicle.idlers.x), abs(vehicle.sprockets.x)) + _MARGIN
         self.reset()
 
     def reset(self):
@@ -88,10 +85,15 @@ class Simulation:
         self.state = deepcopy(self._initial)
         self.road = RoadStore()
         self.periods = 0
-        self.sample, self._next = new_sample(self.sensors), new_sample(self.sensors)
+        self.sample, self._next = (new_sample(self._points, self.system.mounts) for _ in range(2))
         self._work = new_work(self.system)
-        self._demanded = np.zeros(2)
+        self._demanded = np.zeros(self.coils)
         observe(self.system, self.state, self._work.motion, self.sample)
+
+    @property
+    def coils(self) -> int:
+        """How many mounts have a coil."""
+        return self.system.mounts.coils
 
     @property
     def time(self) -> int:
@@ -108,7 +110,7 @@ class Simulation:
         return self._road_around(1) is not None
 
     def advance(self, demanded):
-        """Do one control period with the demanded currents (2,) [A].
+        """Do one control period with the demanded currents (c,) [A], one a coil.
 
         Raises
         ------
@@ -126,7 +128,7 @@ class Simulation:
         if road is not self._held:
             steps = self.settings.rates.steps
             self._statuses = control_periods(
-                self.system, self.state, road, self._demanded, steps, self._work, self.sensors, self._next, self.sample
+                self.system, self.state, road, self._demanded, steps, self._work, self._points, self._next, self.sample
             )
             self._held = road
 
@@ -143,7 +145,7 @@ class Simulation:
             demanded,
             self.settings.rates.steps,
             self._work,
-            self.sensors,
+            self._points,
             self.sample,
             force,
             speed,
@@ -156,5 +158,16 @@ class Simulation:
             raise RunFailed(f"{REASONS[status]} after t = {self.time / NANO:.3f} s")
 
     def _road_around(self, periods):
-        ahead = 1.5 * periods * self.settings.operation.speed / self.settings.rates.control
-        return self.road.around(self.distance - self._reach, self.distance + self._reach + ahead)
+        way = 1.5 * periods * self.settings.operation.speed / self.settings.rates.control
+        rear, front = self.distance - self._reach, self.distance + self._reach
+        return self.road.around(rear + min(way, 0.0), front + max(way, 0.0))
+
+
+def _points(sensors, rows):
+    """The kernels' record of `Sensor`s and `Probe`s."""
+    turns = [sensor.turn if isinstance(sensor, Sensor) else np.eye(3) for sensor in sensors]
+    return Sensors(
+        np.array([rows[sensor.body] for sensor in sensors]),
+        np.array([sensor.place for sensor in sensors], dtype=float),
+        np.array([turn.ravel() for turn in turns]),
+    )

@@ -6,8 +6,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..numerics.compiled import inlined, kernel
-from ..numerics.spatial import load3, store3
+from ..numerics.spatial import load3, rotate_back, store3
 from ..rui.sweeps.articulated import open_cuts
+from ..rui.sweeps.elastic import apply_elastic_hinges
 from ..rui.sweeps.integrator import integrate
 from ..rui.sweeps.kinematics import MotionOffset, body_axes, motion_vector, point_place, rotation, update_motion
 from ..rui.sweeps.riccati import point_specific_force, solve_accelerations
@@ -16,7 +17,7 @@ from ..vehicle.driver import add_driver
 from ..vehicle.engine import add_engine, imposed_displacement, turn_crank
 from ..vehicle.hinge_springs import add_hinge_springs
 from ..vehicle.mount_energy import update_mount_energy
-from ..vehicle.mr_mounts import MountSample, add_mounts, new_mount_sample, observe_mounts
+from ..vehicle.mounts import MountSample, add_mounts, new_mount_sample, observe_mounts
 from ..vehicle.suspension import add_suspension
 from ..vehicle.tracks.tracks import add_tracks, move_tracks, track_skips, wheel_below_road
 
@@ -49,6 +50,7 @@ class Sensors(NamedTuple):
 
     body: np.ndarray  # (m,) row in the tree
     place: np.ndarray  # (m, 3) m
+    turn: np.ndarray  # (m, 9) from the sensors' axes into those of their bodies
 
 
 class Sample(NamedTuple):
@@ -57,17 +59,17 @@ class Sample(NamedTuple):
     Sensors give means over the period, as integrating instruments do; the rest is the state at its end.
     """
 
-    specific_force: np.ndarray  # (m, 3) acceleration less gravity, body axes, m/s^2
-    angular_velocity: np.ndarray  # (m, 3) body axes, rad/s
+    specific_force: np.ndarray  # (m, 3) acceleration less gravity, sensors' axes, m/s^2
+    angular_velocity: np.ndarray  # (m, 3) sensors' axes, rad/s
     hull_velocity: np.ndarray  # (1, 3) of the hull's origin, hull axes, m/s
     hull_angular_velocity: np.ndarray  # (1, 3) hull axes, rad/s
     mounts: MountSample
 
 
-def new_sample(sensors):
+def new_sample(sensors, mounts):
     """Return room for a sample."""
     m = len(sensors.body)
-    return Sample(np.zeros((m, 3)), np.zeros((m, 3)), np.zeros((1, 3)), np.zeros((1, 3)), new_mount_sample())
+    return Sample(np.zeros((m, 3)), np.zeros((m, 3)), np.zeros((1, 3)), np.zeros((1, 3)), new_mount_sample(mounts))
 
 
 @inlined
@@ -81,6 +83,7 @@ def add_forces(system, state, road, work):
     open_cuts(tree, motion, work.torques, cuts)
     add_tracks(system.tracks, state.tracks, state.tree, road, motion, cuts, work.tracks, system.dt)
     displacement, displacement_rate = imposed_displacement(system.engine, state.crank_angle[0])
+    apply_elastic_hinges(tree, motion, cuts)
     add_mounts(system.mounts, motion, cuts, state.coils.field, displacement, displacement_rate)
     update_mount_energy(
         system.mounts, motion, state.coils.field, displacement, displacement_rate, system.dt, state.mount_energy
@@ -97,6 +100,9 @@ def measure(work, sensors, sample, share):
         place = point_place(work.motion, body, load3(sensors.place, i))
         force = body_axes(work.motion, body, point_specific_force(work.motion, work.response, body, place))
         rate = body_axes(work.motion, body, motion_vector(work.motion, MotionOffset.ANGULAR_VELOCITY, body))
+        turn = sensors.turn[i]
+        axes = (turn[0], turn[1], turn[2], turn[3], turn[4], turn[5], turn[6], turn[7], turn[8])
+        force, rate = rotate_back(axes, force), rotate_back(axes, rate)
         for k in range(3):
             sample.specific_force[i, k] += share * force[k]
             sample.angular_velocity[i, k] += share * rate[k]
@@ -131,7 +137,7 @@ def end_step(system, state, road, work, sensors, sample, share):
 
 @kernel
 def advance(system, state, road, demanded, steps, work, sensors, sample):
-    """Advance the vehicle by one control period of `steps` physics steps with constant demanded currents (2,) [A].
+    """Advance the vehicle by one control period of `steps` physics steps with constant demanded currents (c,) [A].
 
     Fills `sample` with the period's means. Returns `GOOD`, or at once what made the state leave the valid range.
     """

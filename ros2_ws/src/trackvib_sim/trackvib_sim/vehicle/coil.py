@@ -25,7 +25,7 @@ _EXACT = 1e-6  # of a physics step
 
 
 class Coil(NamedTuple):
-    """Both mounts have the same driver and coil. Voltages are told by the current that they hold, v/R."""
+    """All MR mounts have the same driver and coil. Voltages are told by the current that they hold, v/R."""
 
     delay: int  # physics steps
     lowest: float  # A, what the driver may be asked for
@@ -40,12 +40,12 @@ class Coil(NamedTuple):
 
 
 class CoilState(NamedTuple):
-    """Left first."""
+    """Of c coils, in the order of the mounts."""
 
-    waiting: np.ndarray  # (2, delay) demanded currents on their way, oldest first, A
-    reference: np.ndarray  # (2,) of the driver, A
-    current: np.ndarray  # (2,) in the coils, A
-    field: np.ndarray  # (2,) that would hold the magnetic field as it is; what the mounts feel, A
+    waiting: np.ndarray  # (c, delay) demanded currents on their way, oldest first, A
+    reference: np.ndarray  # (c,) of the driver, A
+    current: np.ndarray  # (c,) in the coils, A
+    field: np.ndarray  # (c,) that would hold the magnetic field as it is; what the mounts feel, A
 
 
 def build_coil(vehicle, dt):
@@ -87,13 +87,15 @@ def _decays(lag, eddy_lag, dt):
 
 def usable_current(vehicle):
     """Return the range of demanded current that neither the driver nor the fits of the mounts cut [A]."""
-    limits, fits = vehicle.coil.current_limits, vehicle.mr_mounts.current_range
-    return np.array([max(limits[0], fits[0]), min(limits[1], fits[1])])
+    used = {mount.type for mount in vehicle.mounts.values()}
+    kinds = [vehicle.mount_types[name] for name in used]
+    ranges = [vehicle.coil.current_limits, *(kind.current_range for kind in kinds if kind.kind == "mr")]
+    return np.array([max(low for low, _ in ranges), min(high for _, high in ranges)])
 
 
-def new_coil_state(coil):
-    """Return the state without any current."""
-    return CoilState(np.zeros((2, coil.delay)), np.zeros(2), np.zeros(2), np.zeros(2))
+def new_coil_state(coil, count):
+    """Return the state of so many coils without any current."""
+    return CoilState(np.zeros((count, coil.delay)), np.zeros(count), np.zeros(count), np.zeros(count))
 
 
 def settle_coils(coil, coils, demanded):
@@ -104,8 +106,8 @@ def settle_coils(coil, coils, demanded):
 
 @kernel
 def drive_coils(coil, demanded, coils):
-    """Let both coils follow the demanded currents (2,) [A] for one step."""
-    for i in range(2):
+    """Let all coils follow the demanded currents (c,) [A] for one step."""
+    for i in range(coils.current.size):
         current, reference = coils.current[i], coils.reference[i]
         target = min(max(_delayed(coils.waiting[i], demanded[i]), coil.lowest), coil.highest)
         reference = min(max(target, reference - coil.slew), reference + coil.slew)

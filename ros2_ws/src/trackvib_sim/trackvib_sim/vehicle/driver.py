@@ -8,7 +8,7 @@ from ..numerics.compiled import kernel
 from ..numerics.spatial import scale
 from ..rui.sweeps.articulated import apply_wrench
 from ..rui.sweeps.kinematics import MotionOffset, body_axes, motion_vector, rotation
-from .body_tree import SIDES, SPROCKET
+from .body_tree import SIDES, sprocket_name
 from .tracks.sprockets import pitch_radius
 
 
@@ -33,7 +33,7 @@ def build_driver(vehicle, rows, speed):
     d = vehicle.driver
     return Driver(
         hull=rows["hull"],
-        sprocket=np.array([rows[f"sprocket_{SPROCKET[side]}"] for side in SIDES]),
+        sprocket=np.array([rows[sprocket_name(side)] for side in SIDES]),
         radius=pitch_radius(vehicle),
         half_tread=vehicle.sprockets.y,
         speed=speed,

@@ -20,12 +20,13 @@ from ..numerics.compiled import kernel
 from ..numerics.spatial import cross, dot, rotate, symmetric_product, turn_inertia
 from ..rui.sweeps.articulated import CutOffset
 from ..rui.sweeps.cells import get3, get6
+from ..rui.sweeps.elastic import elastic_energy
 from ..rui.sweeps.kinematics import MotionOffset, motion_vector, rotation, update_motion
 from ..rui.sweeps.tree import BodyOffset
 from .driver import add_driver
 from .engine import add_engine, imposed_displacement
 from .hinge_springs import add_hinge_springs
-from .mr_mounts import mount_deflection, mount_force, mount_stored_energy
+from .mounts import mount_current, mount_deflection, mount_force, mount_stored_energy
 from .suspension import add_suspension
 from .system import new_state, new_work
 from .tracks.nodes import STRIDE, NodeOffset
@@ -127,6 +128,7 @@ def _evaluate(system, state, road, work, account):
     account.stored[:] = 0.0
     account.dissipation[:] = 0.0
     _add_hinge_springs(system.springs, state.tree, work.torques, account)
+    _add_elastic_hinges(tree, motion, account)
     _add_suspension(system.suspension, state.tree, work.torques, account)
     cuts.cells[:] = 0.0
     add_engine(system.engine, state.crank_angle[0], motion, cuts)
@@ -169,7 +171,7 @@ def _add_shoes(system, nodes, account):
     mass, gravity = system.tracks.chain.shoe_mass, system.tree.gravity
     for side in range(2):
         for k in range(3):
-            for i in range(1, system.tracks.chain.links + 1):
+            for i in range(1, system.tracks.chain.links[side] + 1):
                 speed = nodes[side, (NodeOffset.VELOCITY + k) * STRIDE + i]
                 account.kinetic[0] += 0.5 * mass * speed * speed
                 account.gravitational[0] -= mass * gravity[k] * nodes[side, k * STRIDE + i]
@@ -188,6 +190,15 @@ def _add_hinge_springs(springs, state, torques, account):
 
 
 @kernel
+def _add_elastic_hinges(tree, motion, account):
+    """Their wrenches without damping tell what they store, for rotations as small as bushings allow."""
+    for k in range(tree.elastic.child.size):
+        stored, dissipated = elastic_energy(tree, motion, k)
+        account.stored[Part.HINGES] += stored
+        account.dissipation[Part.HINGES] += dissipated
+
+
+@kernel
 def _add_suspension(suspension, state, torques, account):
     s = suspension
     torques[:] = 0.0
@@ -195,9 +206,9 @@ def _add_suspension(suspension, state, torques, account):
     for i in range(s.row.size):
         b = s.row[i]
         angle = state.hinge[b]
-        bar, stop = s.bar_stiffness * angle, s.stop_stiffness * max(0.0, angle - s.stop_angle)
-        account.stored[Part.SUSPENSION] += (s.preload + 0.5 * bar) * angle + 0.5 * stop * (angle - s.stop_angle)
-        account.dissipation[Part.SUSPENSION] -= (torques[b] + s.preload + bar + stop) * state.hinge_rate[b]
+        bar, stop = s.bar_stiffness[i] * angle, s.stop_stiffness[i] * max(0.0, angle - s.stop_angle[i])
+        account.stored[Part.SUSPENSION] += (s.preload[i] + 0.5 * bar) * angle + 0.5 * stop * (angle - s.stop_angle[i])
+        account.dissipation[Part.SUSPENSION] -= (torques[b] + s.preload[i] + bar + stop) * state.hinge_rate[b]
 
 
 @kernel
@@ -205,13 +216,13 @@ def _add_mounts(system, state, motion, account):
     """Where the engine imposes a displacement across a mount it does work on the mount's force."""
     mounts = system.mounts
     imposed, imposed_rate = imposed_displacement(system.engine, state.crank_angle[0])
-    for index in range(2):
-        current = state.coils.field[index]
+    for index in range(mounts.body.size):
+        current = mount_current(mounts, index, state.coils.field)
         _, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)
-        force, dissipation = mount_force(mounts, current, l, l_d)
-        account.stored[Part.MOUNTS] += mount_stored_energy(mounts, current, l)
+        force, dissipation = mount_force(mounts, index, current, l, l_d)
+        account.stored[Part.MOUNTS] += mount_stored_energy(mounts, index, current, l)
         account.dissipation[Part.MOUNTS] += dissipation
-        account.given[Source.ENGINE] += force[2] * imposed_rate
+        account.given[Source.ENGINE] += force[2] * mounts.excited[index] * imposed_rate
 
 
 @kernel

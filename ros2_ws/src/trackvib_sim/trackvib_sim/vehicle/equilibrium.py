@@ -7,11 +7,12 @@ from scipy.spatial.transform import Rotation
 from ..numerics.compiled import kernel
 from ..rui.sweeps.articulated import open_cuts
 from ..rui.sweeps.cells import columns
+from ..rui.sweeps.elastic import apply_elastic_hinges
 from ..rui.sweeps.kinematics import update_motion
 from ..rui.sweeps.riccati import ResponseOffset, solve_accelerations
 from .coil import settle_coils
 from .hinge_springs import add_hinge_springs
-from .mr_mounts import add_mounts
+from .mounts import add_mounts
 from .supports import add_supports
 from .suspension import add_suspension
 from .system import new_state, new_work
@@ -31,16 +32,18 @@ def _static_accelerations(system, state, work):
     add_suspension(system.suspension, state.tree, work.torques)
     update_motion(system.tree, state.tree, work.motion)
     open_cuts(system.tree, work.motion, work.torques, work.cuts)
+    apply_elastic_hinges(system.tree, work.motion, work.cuts)
     add_mounts(system.mounts, work.motion, work.cuts, state.coils.field, 0.0, 0.0)
     add_supports(system.supports, work.motion, work.cuts)
     solve_accelerations(system.tree, work.motion, work.cuts, work.response)
 
 
 def static_equilibrium(system, current):
-    """Return the state at rest on a level road at height zero with `current` [A] in both coils.
+    """Return the state at rest on a level road at height zero with `current` [A] in all coils.
 
-    The unknowns are place, roll and pitch of the hull and every hinge that a spring or the ground holds; wheels,
-    rollers, sprockets and idlers may stand at any angle and stay at zero. The tracks are not laid.
+    The unknowns are place and attitude of the hull and of every body on mounts or an elastic hinge, and every hinge
+    that a spring or the ground holds; wheels, rollers, sprockets and idlers may stand at any angle and stay at zero.
+    The tracks are not laid.
 
     Raises
     ------
@@ -49,19 +52,22 @@ def static_equilibrium(system, current):
     """
     state, work = new_state(system), new_work(system)
     settle_coils(system.coil, state.coils, current)
-    springs = system.springs
-    sprung = np.union1d(springs.row[springs.stiffness > 0.0], system.mounts.powertrain)
-    held = np.concatenate((sprung, system.suspension.row))
+    springs, tree, origin = system.springs, system.tree, state.tree.position.copy()
+    mounted = np.setdiff1d(system.mounts.body, tree.elastic.child)
+    sprung = np.union1d(springs.row[springs.stiffness > 0.0], mounted[_movable(tree, mounted)])
+    held = np.concatenate((sprung, system.suspension.row)).astype(np.int64)
+    free = 6 * len(origin)
 
     def residual(unknowns):
-        state.tree.position[0] = unknowns[:3]
-        state.tree.attitude[0] = np.roll(Rotation.from_euler("xyz", unknowns[3:6]).as_quat(), 1)  # scalar first
-        state.tree.hinge[held] = unknowns[6:]
+        state.tree.position[:] = origin + unknowns[:free].reshape(-1, 6)[:, :3]
+        turned = Rotation.from_euler("xyz", unknowns[:free].reshape(-1, 6)[:, 3:])
+        state.tree.attitude[:] = np.roll(turned.as_quat(), 1, axis=-1)  # scalar first
+        state.tree.hinge[held] = unknowns[free:]
         _static_accelerations(system, state, work)
         linear, angular, hinges = accelerations(system, work)
-        return np.concatenate((linear, angular, hinges[held]))
+        return np.concatenate((np.hstack((linear, angular)).ravel(), hinges[held]))
 
-    found = root(residual, np.zeros(6 + len(held)), method="hybr", options={"xtol": 1e-14, "eps": 1e-8})
+    found = root(residual, np.zeros(free + len(held)), method="hybr", options={"xtol": 1e-14, "eps": 1e-8})
     residual(found.x)
     # all of them: what nothing holds must not move either
     left_over = max(np.abs(part).max() for part in accelerations(system, work))
@@ -74,7 +80,12 @@ def static_equilibrium(system, current):
 
 
 def accelerations(system, work):
-    """Return linear and angular acceleration (3,) of the hull and those of the hinges (rows,)."""
+    """Return linear and angular acceleration (r, 3) of the free bodies, the hull first, and of the hinges (rows,)."""
     found = columns(work.response, ResponseOffset.LINEAR, ResponseOffset.SIZE)
-    hull = found[system.tree.row[0]]
-    return hull[:3] + system.tree.gravity, hull[3:6], found[:, ResponseOffset.HINGE]
+    free = found[[system.tree.row[0], *system.tree.elastic.child]]
+    return free[:, :3] + system.tree.gravity, free[:, 3:6], found[:, ResponseOffset.HINGE]
+
+
+def _movable(tree, rows):
+    """Return which bodies (by row) have a hinge with a coordinate, (n,) bool."""
+    return np.isin(rows, tree.row[tree.moves])

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..numerics.compiled import kernel
+from .body_tree import bodies_on_hinges, running_gear_kind
 
 
 class HingeSprings(NamedTuple):
@@ -18,21 +19,21 @@ class HingeSprings(NamedTuple):
 def build_hinge_springs(vehicle, rows):
     """Return the record for the vehicle; `rows` maps body names to rows of the tree."""
     springs = [
-        (rows[name], section.stiffness, section.damping)
-        for name in ("turret", "gun_mount", "recoil_part", "powertrain")
-        for section in (getattr(vehicle, name),)
+        (rows[name], body.stiffness, body.damping)
+        for name, body in bodies_on_hinges(vehicle).items()
+        if body.hinge in ("revolute", "prismatic")
     ]
     bearings = {
-        "wheel_": vehicle.road_wheels,
-        "sprocket_": vehicle.sprockets,
-        "roller_": vehicle.carrier_rollers,
-        "idler_": vehicle.idlers,
+        "wheel": vehicle.road_wheels,
+        "sprocket": vehicle.sprockets,
+        "roller": vehicle.carrier_rollers,
+        "idler": vehicle.idlers,
     }
-    for prefix, section in bearings.items():
-        if section.bearing_damping > 0.0:
-            springs += [(row, 0.0, section.bearing_damping) for name, row in rows.items() if name.startswith(prefix)]
-    row, stiffness, damping = zip(*springs, strict=True)
-    return HingeSprings(np.array(row), np.array(stiffness), np.array(damping))
+    for kind, section in bearings.items():
+        if section is not None and section.bearing_damping > 0.0:
+            springs += [(rows[name], 0.0, section.bearing_damping) for name in rows if running_gear_kind(name) == kind]
+    row, stiffness, damping = zip(*springs, strict=True) if springs else ((), (), ())
+    return HingeSprings(np.array(row, dtype=np.int64), np.array(stiffness, float), np.array(damping, float))
 
 
 @kernel

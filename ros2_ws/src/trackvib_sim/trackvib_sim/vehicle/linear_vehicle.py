@@ -7,10 +7,10 @@ from ..rui.state import no_loads
 from ..rui.sweeps.cells import columns
 from ..rui.sweeps.kinematics import MotionOffset, point_place, update_motion
 from ..rui.sweeps.tree import new_rows, to_table
-from .body_tree import STATIONS, build_body_table
+from .body_tree import SIDES, build_body_table
 from .equilibrium import static_equilibrium
 from .hinge_springs import add_hinge_springs
-from .mr_mounts import mount_axes, mount_deflection, mount_force
+from .mounts import mount_axes, mount_deflection, mount_force
 from .supports import pulls
 from .suspension import add_suspension
 from .system import new_work
@@ -20,7 +20,7 @@ def build_linear_vehicle(vehicle, system, current):
     """Return the `rui.linear_model.LinearModel` of a vehicle at rest on level road.
 
     The tracks are springs and the sprockets braked (`supports`). Shock absorbers have the slope of small speeds, the MR
-    mounts k(I) and c(I) of a constant current [A], the same in both coils.
+    mounts k(I) and c(I) of a constant current [A], the same in all coils.
 
     Raises
     ------
@@ -38,7 +38,7 @@ def build_linear_vehicle(vehicle, system, current):
     np.add.at(damping, system.springs.row, system.springs.damping)
     s = system.suspension
     stiffness[s.row] += s.bar_stiffness
-    damping[s.row] += s.friction + s.has_shock * s.shock_damping * s.length**2
+    damping[s.row] += s.friction + s.shock_damping * s.length**2
     row = system.tree.row
     return LinearModel(
         bodies=bodies,
@@ -47,18 +47,20 @@ def build_linear_vehicle(vehicle, system, current):
         stiffness=stiffness[row],
         damping=damping[row],
         springs=tuple(_ground(system, bodies, work.motion)),
-        mounts=tuple(_mounts(system, work.motion, current)),
+        mounts=tuple(_mounts(system, bodies, work.motion, current)),
         loads=no_loads(bodies)._replace(torque=torque[row]),
     )
 
 
-def _mounts(system, motion, current):
+def _mounts(system, bodies, motion, current):
     mounts = system.mounts
-    k, c = (np.diag(along) for along in mount_axes(mounts, current))
-    for index in range(2):
+    name = {row: body.name for body, row in zip(bodies, system.tree.row.tolist(), strict=True)}
+    for index, body in enumerate(mounts.body.tolist()):
+        turn = mounts.axes[index].reshape(3, 3)
+        k, c = (turn @ np.diag(along) @ turn.T for along in mount_axes(mounts, index, current))
         _, deflection, _ = mount_deflection(mounts, motion, index, 0.0, 0.0)
-        force, _ = mount_force(mounts, current, deflection, (0.0, 0.0, 0.0))
-        yield Mount("powertrain", mounts.upper[index], k, c, np.array(force))
+        force, _ = mount_force(mounts, index, current, deflection, (0.0, 0.0, 0.0))
+        yield Mount(name[body], mounts.upper[index], k, c, turn @ force)
 
 
 def _ground(system, bodies, motion):
@@ -67,7 +69,8 @@ def _ground(system, bodies, motion):
     name = {row: body.name for body, row in zip(bodies, system.tree.row.tolist(), strict=True)}
     hub = columns(motion, MotionOffset.ORIGIN, 3)
     wheel = [np.diag([0.0, supports.lateral[i], supports.vertical[i]]) for i in range(2)]
-    for row, side in zip(supports.wheel.tolist(), np.repeat((1.0, -1.0), STATIONS), strict=True):
+    sides = np.repeat(list(SIDES.values()), len(supports.wheel) // len(SIDES))
+    for row, side in zip(supports.wheel.tolist(), sides, strict=True):
         away = np.array([0.0, side * supports.brake[0, 1], supports.radius]) - hub[row]
         yield GroundSpring(name[row], np.zeros(3), *wheel, wheel[0] @ away)
     brake = [np.diag([supports.longitudinal[i], 0.0, 0.0]) for i in range(2)]

@@ -1,4 +1,4 @@
-"""The energy account of the MR mounts along a run, kept in every physics step.
+"""The energy account of the mounts along a run, kept in every physics step.
 
     work on a mount = dissipated + stored + exchanged
 
@@ -16,26 +16,26 @@ import numpy as np
 
 from ..numerics.compiled import kernel
 from ..numerics.spatial import add, dot, load3, scale, store3, subtract
-from .mr_mounts import mount_axes, mount_deflection, mount_force, mount_stored_energy
+from .mounts import mount_axes, mount_current, mount_deflection, mount_force, mount_stored_energy
 
 
 class MountEnergyState(NamedTuple):
-    """What went where since `start_mount_energy`, left first, and what the next step needs of the last one."""
+    """What went where since `start_mount_energy`, mount by mount (m), and what the next step needs of the last one."""
 
-    work: np.ndarray  # (2,) done on the mount, J
-    dissipated: np.ndarray  # (2,) J
-    stored: np.ndarray  # (2,) J
-    exchanged: np.ndarray  # (2,) given to the magnetic field, J
-    force: np.ndarray  # (2, 3) on the powertrain, N
-    damping: np.ndarray  # (2, 3) its part against the motion, N
-    speed: np.ndarray  # (2, 3) between the ends, without what is imposed, m/s
-    current: np.ndarray  # (2,) that the mount felt, A
-    imposed_rate: np.ndarray  # (1,) m/s
-    energy: np.ndarray  # (2,) of the spring, J
+    work: np.ndarray  # (m,) done on the mount, J
+    dissipated: np.ndarray  # (m,) J
+    stored: np.ndarray  # (m,) J
+    exchanged: np.ndarray  # (m,) given to the magnetic field, J
+    force: np.ndarray  # (m, 3) on the powertrain, N
+    damping: np.ndarray  # (m, 3) its part against the motion, N
+    speed: np.ndarray  # (m, 3) between the ends, without what is imposed, m/s
+    current: np.ndarray  # (m,) that the mount felt, A
+    imposed_rate: np.ndarray  # (m,) m/s
+    energy: np.ndarray  # (m,) of the spring, J
 
 
 class MountEnergy(NamedTuple):
-    """The account of both mounts together [J], as in `MountEnergyState`."""
+    """The account of all mounts together [J], as in `MountEnergyState`."""
 
     work: float
     dissipated: float
@@ -54,9 +54,9 @@ class MountEnergy(NamedTuple):
         return abs(self.residual) / greatest if greatest > 0.0 else 0.0
 
 
-def new_mount_energy_state():
-    """Return an account without a step."""
-    return MountEnergyState(*(np.zeros(shape) for shape in (2, 2, 2, 2, (2, 3), (2, 3), (2, 3), 2, 1, 2)))
+def new_mount_energy_state(m):
+    """Return an account of m mounts without a step."""
+    return MountEnergyState(*(np.zeros(shape) for shape in (m, m, m, m, (m, 3), (m, 3), (m, 3), m, m, m)))
 
 
 def start_mount_energy(account):
@@ -74,22 +74,23 @@ def mount_energy_account(account):
 @kernel
 def update_mount_energy(mounts, motion, currents, imposed, imposed_rate, dt, account):
     """Book the last step [s], given what `add_mounts` has for the one that begins."""
-    for index in range(2):
+    for index in range(mounts.body.size):
         _, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)
-        before, current = account.current[index], currents[index]
-        speed = add(l_d, (0.0, 0.0, imposed_rate))
+        before, current = account.current[index], mount_current(mounts, index, currents)
+        own_rate = mounts.excited[index] * imposed_rate
+        speed = add(l_d, (0.0, 0.0, own_rate))
         mean = scale(0.5, add(load3(account.speed, index), speed))
-        mean = subtract(mean, (0.0, 0.0, account.imposed_rate[0]))
+        mean = subtract(mean, (0.0, 0.0, account.imposed_rate[index]))
         middle = subtract(l, scale(0.5 * dt, l_d))
-        left, energy = mount_stored_energy(mounts, before, middle), mount_stored_energy(mounts, current, middle)
+        left = mount_stored_energy(mounts, index, before, middle)
+        energy = mount_stored_energy(mounts, index, current, middle)
         account.work[index] -= dt * dot(load3(account.force, index), mean)
         account.dissipated[index] += dt * dot(load3(account.damping, index), mean)
         account.exchanged[index] += left - energy
         account.stored[index] += energy - account.energy[index]
-        force, _ = mount_force(mounts, current, l, l_d)
-        _, c = mount_axes(mounts, current)
+        force, _ = mount_force(mounts, index, current, l, l_d)
+        _, c = mount_axes(mounts, index, current)
         store3(account.force, index, force)
         store3(account.damping, index, (c[0] * l_d[0], c[1] * l_d[1], c[2] * l_d[2]))
         store3(account.speed, index, speed)
-        account.current[index], account.energy[index] = current, energy
-    account.imposed_rate[0] = imposed_rate
+        account.current[index], account.energy[index], account.imposed_rate[index] = current, energy, own_rate

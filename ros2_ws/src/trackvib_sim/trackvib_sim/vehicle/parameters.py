@@ -1,84 +1,31 @@
 """The vehicle's parameters: what a vehicle file must hold."""
 
-import numpy as np
-from pydantic import model_validator
+from typing import Annotated, Literal
 
-from .quantities import choice, scalar, vector, vectors
+from pydantic import Field, model_validator
+
+from .body_parameters import HULL, AnyBodyParameters
+from .mount_parameters import MOST_COILS, MOST_MOUNTS, AnyMountKind, CoilParameters, MountParameters
+from .quantities import scalar, vector, vectors
 from .running_gear_parameters import (
+    EndWheelsParameters,
     GroundParameters,
-    HullWheelsParameters,
     RimsParameters,
     RoadWheelsParameters,
+    RollersParameters,
     ShockAbsorbersParameters,
     SwingArmsParameters,
     TeethParameters,
     TensionersParameters,
     TracksParameters,
 )
-from .sections import Gain, Mass, Place, Range, RigidBodyParameters, Section
+from .sections import Angles, Gain, Name, Place, Range, RigidBodyParameters, Section, increasing
+from .upgrade import FORMAT, upgraded
 
-
-class RevoluteBodyParameters(RigidBodyParameters):
-    """A body on a revolute hinge with a rotary spring and damper."""
-
-    place: Place
-    stiffness: Gain("N m/rad")
-    damping: Gain("N m s/rad")
-
-
-class PrismaticBodyParameters(RigidBodyParameters):
-    """A body on a prismatic hinge with a spring and damper."""
-
-    place: Place
-    stiffness: Gain("N/m")
-    damping: Gain("N s/m")
-
-
-class MrMountsParameters(Section):
-    """The pair of magnetorheological mounts: measured fits, their valid range, the other axes as ratios."""
-
-    place: Place
-    stiffness_fit: vector("kN/mm, I in A", 4)
-    damping_ratio_fit: vector("-, I in A", 4)
-    carried_mass: Mass
-    static_load: Gain("N")
-    current_range: Range("A")
-    stiffness_ratio: vector("-", 2, ge=0.0)
-    damping_ratio: vector("-", 2, ge=0.0)
-
-    @model_validator(mode="after")
-    def _stiff_over_the_range(self):
-        stiffness = np.polyval(self.stiffness_fit, np.linspace(*self.current_range, 201))
-        if stiffness.min() <= 0.0:
-            raise ValueError(
-                f"stiffness_fit falls to {stiffness.min():.3g} kN/mm within current_range, must stay > 0 there"
-            )
-        return self
-
-
-class CoilParameters(Section):
-    """Driver and coil of one mount."""
-
-    model: choice("lag", "current_loop")
-    current_limits: Range("A")
-    slew_rate: Gain("A/s")
-    delay: scalar("s", ge=0.0, le=1.0)
-    time_constant: scalar("s", gt=0.0)
-    loop_time_constant: scalar("s", gt=0.0)
-    voltage_limits: vector("V", 2)
-    resistance: scalar("ohm", gt=0.0)
-    inductance: scalar("H", gt=0.0)
-    eddy_time_constant: Gain("s")
-
-    @model_validator(mode="after")
-    def _voltage_for_every_current(self):
-        needed = [self.resistance * current for current in self.current_limits]
-        if not (self.voltage_limits[0] <= needed[0] and needed[1] <= self.voltage_limits[1]):
-            raise ValueError(
-                f"voltage_limits are {self.voltage_limits} V, must hold {needed[0]:g} to {needed[1]:g} V, "
-                "resistance times current_limits"
-            )
-        return self
+POWERTRAIN = "powertrain"
+CHASSIS = "chassis"
+MOST_BODIES = 30
+MOST_SENSORS = 32
 
 
 class EngineParameters(Section):
@@ -95,6 +42,7 @@ class EngineParameters(Section):
 
     @model_validator(mode="after")
     def _one_row_an_order(self):
+        increasing("speed_range", self.speed_range)
         for name in ("force", "moment", "phase"):
             if len(getattr(self, name)) != len(self.orders):
                 raise ValueError(f"{name} has {len(getattr(self, name))} rows, must have one for each order")
@@ -114,51 +62,109 @@ class DriverParameters(Section):
     lane_gain: Gain("rad/m")
 
 
+class SensorParameters(Section):
+    """An inertial sensor; `divisor` control periods make one of its samples."""
+
+    body: Name
+    place: Place
+    orientation: Angles | None = None
+    divisor: scalar("-", ge=1.0, le=1000.0, multiple_of=1.0) | None = None
+
+
 class Vehicle(Section):
     """The whole file.
 
     Examples
     --------
     >>> import trackvib_sim as tv
-    >>> vehicle, _ = tv.read_vehicle(tv.default_vehicle_file())
+    >>> vehicle, _ = tv.read_vehicle(tv.find_vehicle())
     >>> lighter = vehicle.model_copy(update={"hull": vehicle.hull.model_copy(update={"mass": 20_000.0})})
     >>> lighter.hull.mass  # kg
     20000.0
     """
 
+    format: Literal[FORMAT]
+    name: Name
+    description: Annotated[str, Field(max_length=500)]
     hull: RigidBodyParameters
-    turret: RevoluteBodyParameters
-    gun_mount: RevoluteBodyParameters
-    recoil_part: PrismaticBodyParameters
-    powertrain: RevoluteBodyParameters
-    mr_mounts: MrMountsParameters
+    bodies: Annotated[dict[Name, AnyBodyParameters], Field(max_length=MOST_BODIES)] = {}
+    powertrain: AnyBodyParameters
+    mount_types: dict[Name, AnyMountKind] = {}
+    mounts: Annotated[dict[Name, MountParameters], Field(max_length=MOST_MOUNTS)] = {}
     coil: CoilParameters
     engine: EngineParameters
+    sensors: Annotated[dict[Name, SensorParameters], Field(max_length=MOST_SENSORS)] = {}
     swing_arms: SwingArmsParameters
     shock_absorbers: ShockAbsorbersParameters
     road_wheels: RoadWheelsParameters
     tyres: RimsParameters
-    sprockets: HullWheelsParameters
+    sprockets: EndWheelsParameters
     sprocket_teeth: TeethParameters
-    carrier_rollers: HullWheelsParameters
-    roller_rims: RimsParameters
-    idlers: HullWheelsParameters
+    carrier_rollers: RollersParameters | None = None
+    roller_rims: RimsParameters | None = None
+    idlers: EndWheelsParameters
     idler_rims: RimsParameters
     tensioners: TensionersParameters
     tracks: TracksParameters
     ground: GroundParameters
     driver: DriverParameters
 
+    @model_validator(mode="before")
+    @classmethod
+    def _of_the_present_format(cls, content):
+        return upgraded(content)
+
     @model_validator(mode="after")
-    def _counts_of_the_paper(self):
-        for name, count in (("sprockets", 1), ("carrier_rollers", 4), ("idlers", 1)):
-            if len(getattr(self, name).x) != count:
-                raise ValueError(f"{name}: {len(getattr(self, name).x)} places a side, must be {count}")
-        for name, (low, high) in (
-            ("mr_mounts.current_range", self.mr_mounts.current_range),
-            ("coil.current_limits", self.coil.current_limits),
-            ("engine.speed_range", self.engine.speed_range),
-        ):
-            if not low < high:
-                raise ValueError(f"{name}: [{low}, {high}], the first must be below the second")
+    def _bodies_in_order(self):
+        known = [HULL]
+        for name, body in (*self.bodies.items(), (POWERTRAIN, self.powertrain)):
+            if name in known or name.startswith(("left_", "right_")) or name == CHASSIS:
+                raise ValueError(f"bodies.{name}: the name is taken; those of the running gear begin with a side")
+            if body.parent not in known:
+                raise ValueError(
+                    f"bodies.{name}: parent is {body.parent!r}, must stand before it; known are {', '.join(known)}"
+                )
+            known.append(name)
+        for name, sensor in self.sensors.items():
+            if sensor.body not in known:
+                raise ValueError(f"sensors.{name}: body is {sensor.body!r}, must be one of {', '.join(known)}")
+        return self
+
+    @model_validator(mode="after")
+    def _mounts_hold_bodies(self):
+        bodies = {**self.bodies, POWERTRAIN: self.powertrain}
+        for name, mount in self.mounts.items():
+            for item, value, known in (("type", mount.type, self.mount_types), ("body", mount.body, bodies)):
+                if value not in known:
+                    raise ValueError(f"mounts.{name}: {item} is {value!r}, must be one of {', '.join(known) or 'none'}")
+        coils = sum(self.mount_types[mount.type].kind == "mr" for mount in self.mounts.values())
+        if coils > MOST_COILS:
+            raise ValueError(f"mounts: {coils} are of kind 'mr', accepted are {MOST_COILS}")
+        held = {mount.body for mount in self.mounts.values()}
+        for name, body in bodies.items():
+            if body.hinge == "free" and name not in held:
+                raise ValueError(f"{name}: hinge is 'free', so mounts must hold it")
+        if not any(mount.body == POWERTRAIN for mount in self.mounts.values()):
+            for sensor in (CHASSIS, POWERTRAIN):
+                if sensor not in self.sensors:
+                    raise ValueError(f"sensors.{sensor}: must be given, for no mount carries the powertrain")
+        return self
+
+    @model_validator(mode="after")
+    def _running_gear_fits_together(self):
+        arms, shocks = self.swing_arms, self.shock_absorbers
+        for name, values in shocks:
+            if len(values) not in (1, arms.stations):
+                raise ValueError(
+                    f"shock_absorbers.{name} has {len(values)} values, must have one, or one for each of "
+                    f"{arms.stations} stations"
+                )
+        if (self.carrier_rollers is None) != (self.roller_rims is None):
+            raise ValueError("carrier_rollers and roller_rims: must both be there, or neither of them")
+        rear, front = sorted((self.sprockets.x, self.idlers.x))
+        if not rear < arms.places.min() <= arms.places.max() < front:
+            raise ValueError(
+                f"sprockets.x is {self.sprockets.x:g} m and idlers.x {self.idlers.x:g} m, the road wheels must lie between "
+                f"them, they are at {arms.places.min():g} to {arms.places.max():g} m"
+            )
         return self

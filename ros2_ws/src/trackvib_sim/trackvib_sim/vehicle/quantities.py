@@ -58,12 +58,11 @@ def scalar(unit, **limits):
     return Annotated[float, Field(allow_inf_nan=False, **limits), _NUMBERS, _bounded(unit), _plain(unit)]
 
 
-def vector(unit, length=None, **limits):
-    """Return the type of a list of finite numbers in `unit`, of a fixed length if one is given."""
+def vector(unit, length=None, most=None, **limits):
+    """Return the type of a list of finite numbers in `unit`, of a fixed length or of `most` numbers at most."""
     element = Annotated[float, Field(allow_inf_nan=False, **limits)]
-    return Annotated[
-        list[element], Field(min_length=length or 1, max_length=length), _NUMBERS, _bounded(unit), _plain(unit)
-    ]
+    sized = Field(min_length=length or 1, max_length=length or most)
+    return Annotated[list[element], sized, _NUMBERS, _bounded(unit), _plain(unit)]
 
 
 def vectors(unit, length):
@@ -76,3 +75,20 @@ def vectors(unit, length):
 def choice(*words):
     """Return the type of one of some words; its unit is "-"."""
     return Annotated[Literal[words], _plain("-")]
+
+
+def one_or_many(unit, most, **limits):
+    """Return the type of a finite number in `unit`, or of a list of up to `most` of them."""
+    element = Annotated[float, Field(allow_inf_nan=False, **limits)]
+    many = Annotated[list[element], Field(min_length=1, max_length=most)]
+    return Annotated[many, BeforeValidator(_listed), _NUMBERS, _bounded(unit), _plain(unit)]
+
+
+def words(most, *known):
+    """Return the type of one of some words, or of a list of up to `most` of them; its unit is "-"."""
+    many = Annotated[list[Literal[known]], Field(min_length=1, max_length=most)]
+    return Annotated[many, BeforeValidator(_listed), _plain("-")]
+
+
+def _listed(value):
+    return value if isinstance(value, list) else [value]

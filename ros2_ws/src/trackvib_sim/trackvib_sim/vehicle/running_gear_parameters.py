@@ -1,71 +1,112 @@
-"""Parameters of suspension, wheels, tracks and ground: their sections of a vehicle file."""
+"""Parameters of suspension, wheels, tracks and ground: their sections of a vehicle file.
+
+A quantity by station is one number for all stations of both sides, or a list from the front station to the rear one.
+One by side is one number for both, or a pair, left and right.
+"""
 
 from math import radians, sin
 from typing import Annotated
 
-from pydantic import Field, model_validator
+import numpy as np
+from pydantic import AfterValidator, model_validator
 
-from .quantities import scalar, vector
+from .quantities import one_or_many, scalar, vector, words
 from .sections import Gain, Length, Mass, RigidBodyParameters, Section
-from .tracks.nodes import MOST_LINKS
+from .tracks.nodes import FEWEST_LINKS, MOST_LINKS
+
+MOST_STATIONS = 12
+MOST_ROLLERS = 12
+SIDES = 2
+
+by_station = lambda unit, **limits: one_or_many(unit, MOST_STATIONS, **limits)  # noqa: E731 - read as types
+by_side = lambda unit, **limits: Annotated[one_or_many(unit, SIDES, **limits), AfterValidator(_pair)]  # noqa: E731
+
+
+def _pair(values):
+    return values if len(values) == SIDES else values * SIDES
 
 
 class SwingArmsParameters(RigidBodyParameters):
-    """Swing arms with torsion bars and bump stops; stiffness and damping as seen at the wheel."""
+    """Swing arms with torsion bars and bump stops; stiffness and damping as seen at the wheel.
+
+    Mass and inertia are those of the left trailing arm, from its pivot; others mirror it.
+    """
 
     length: Length
-    static_angle: scalar("deg", gt=0.0, lt=80.0)
+    static_angle: scalar("deg", gt=-80.0, lt=80.0)
+    direction: words(MOST_STATIONS, "trailing", "leading")
     pivot_y: Length
-    wheel_x: vector("m", 6)
-    wheel_rate: scalar("N/m", gt=0.0)
-    friction: Gain("N s/m")
-    bump_travel: Length
-    bump_stiffness: Gain("N/m")
-    bump_damping: Gain("N s/m")
+    wheel_x: vector("m", most=MOST_STATIONS)
+    right_wheel_x: vector("m", most=MOST_STATIONS) | None = None
+    wheel_rate: by_station("N/m", gt=0.0)
+    preload: by_station("N m", ge=0.0) | None = None
+    friction: by_station("N s/m", ge=0.0)
+    bump_travel: by_station("m", gt=0.0)
+    bump_stiffness: by_station("N/m", ge=0.0)
+    bump_damping: by_station("N s/m", ge=0.0)
+
+    @property
+    def stations(self):
+        """How many there are a side."""
+        return len(self.wheel_x)
+
+    @property
+    def places(self):
+        """The x of the wheels' centres at static ride height, (2, stations) [m], left and right, front first."""
+        return np.array([self.wheel_x, self.right_wheel_x or self.wheel_x])
+
+    @model_validator(mode="after")
+    def _from_front_to_rear(self):
+        for name in ("wheel_x", "right_wheel_x"):
+            x = getattr(self, name)
+            if x is not None and (len(x) != self.stations or any(b >= a for a, b in zip(x, x[1:], strict=False))):
+                raise ValueError(f"{name} is {x}, must be {self.stations} places, each behind the last")
+        for name, values in self:
+            if isinstance(values, list) and name not in ("centre", "inertia", "products", "wheel_x", "right_wheel_x"):
+                _check_stations(name, values, self.stations)
+        return self
 
     @model_validator(mode="after")
     def _stop_within_reach(self):
         highest = self.length * (1.0 + sin(radians(self.static_angle)))
-        if self.bump_travel >= highest:
-            raise ValueError(f"bump_travel is {self.bump_travel} m, must be < {highest:.3f} m, which the arm can reach")
+        if max(self.bump_travel) >= highest:
+            raise ValueError(
+                f"bump_travel is {max(self.bump_travel)} m, must be < {highest:.3f} m, which the arm can reach"
+            )
         return self
 
 
 class ShockAbsorbersParameters(Section):
-    """Telescopic shock absorbers with blow-off, as seen at the wheel."""
+    """Telescopic shock absorbers with blow-off, as seen at the wheel; none where the damping is zero."""
 
-    stations: Annotated[vector("-", ge=1.0, le=6.0), Field(max_length=6)]
-    damping: Gain("N s/m")
-    blow_off_force: Gain("N")
-    blow_off_damping: Gain("N s/m")
-
-    @model_validator(mode="after")
-    def _whole_stations(self):
-        if any(station % 1.0 for station in self.stations):
-            raise ValueError(f"stations is {self.stations}, must be whole numbers")
-        return self
+    damping: by_station("N s/m", ge=0.0)
+    blow_off_force: by_station("N", ge=0.0)
+    blow_off_damping: by_station("N s/m", ge=0.0)
 
 
 class RoadWheelsParameters(Section):
-    """Road wheels as discs about their axle."""
+    """Road wheels, discs about their axle unless their inertia is given (about x, y and z)."""
 
     mass: Mass
     radius: Length
     width: Length
+    inertia: vector("kg m^2", 3, gt=0.0) | None = None
     y: Length
     bearing_damping: Gain("N m s/rad")
 
 
-class HullWheelsParameters(Section):
-    """Discs that turn in the hull: sprockets, carrier rollers, idlers."""
+class EndWheelsParameters(RoadWheelsParameters):
+    """Sprockets or idlers: wheels that turn in the hull, one a side."""
 
-    mass: Mass
-    radius: Length
-    width: Length
-    x: vector("m")
-    y: Length
-    z: vector("m")
-    bearing_damping: Gain("N m s/rad")
+    x: scalar("m")
+    z: scalar("m")
+
+
+class RollersParameters(RoadWheelsParameters):
+    """Carrier rollers: wheels that turn in the hull, from front to rear."""
+
+    x: vector("m", most=MOST_ROLLERS)
+    z: vector("m", most=MOST_ROLLERS)
 
     @model_validator(mode="after")
     def _x_and_z_pair(self):
@@ -100,7 +141,7 @@ class TeethParameters(Section):
 
 
 class TensionersParameters(Section):
-    """Slides that hold the idlers forwards."""
+    """Slides that hold the idlers outwards."""
 
     stiffness: Gain("N/m")
     damping: Gain("N s/m")
@@ -110,7 +151,7 @@ class TensionersParameters(Section):
 class TracksParameters(Section):
     """Links and pins of both tracks."""
 
-    links: scalar("-", ge=20.0, le=float(MOST_LINKS), multiple_of=1.0)
+    links: by_side("-", ge=float(FEWEST_LINKS), le=float(MOST_LINKS), multiple_of=1.0)
     pitch: Length
     shoe_mass: Mass
     link_stiffness: scalar("N/m", gt=0.0)
@@ -118,7 +159,7 @@ class TracksParameters(Section):
     pin_stiffness: Gain("N m/rad")
     pin_damping: Gain("N m s/rad")
     sideways_stiffness: Gain("N m/rad")
-    pretension: Gain("N")
+    pretension: by_side("N", ge=0.0)
 
 
 class GroundParameters(Section):
@@ -129,3 +170,13 @@ class GroundParameters(Section):
     shear_stiffness: scalar("N/m", gt=0.0)
     shear_damping: Gain("N s/m")
     friction: scalar("-", gt=0.0)
+
+
+def at_stations(values, stations):
+    """Return a quantity by station as an array (stations,)."""
+    return np.broadcast_to(np.array(values), stations)
+
+
+def _check_stations(name, values, stations):
+    if len(values) not in (1, stations):
+        raise ValueError(f"{name} has {len(values)} values, must have one, or one for each of {stations} stations")

@@ -1,6 +1,8 @@
 """What sections of a vehicle file are made of: common quantities, and the rigid body."""
 
-from pydantic import BaseModel, ConfigDict
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field
 
 from .quantities import scalar, vector
 
@@ -9,8 +11,11 @@ Length = scalar("m", gt=0.0)
 Place = vector("m", 3)
 Inertia = vector("kg m^2", 3, gt=0.0)
 Products = vector("kg m^2", 3)
+Angles = vector("deg", 3, ge=-180.0, le=180.0)
 Gain = lambda unit: scalar(unit, ge=0.0)  # noqa: E731 - reads as the type it stands for
 Range = lambda unit: vector(unit, 2, ge=0.0)  # noqa: E731
+# parts of topics' and frames' names
+Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]{0,39}$")]
 
 
 class Section(BaseModel):
@@ -26,3 +31,10 @@ class RigidBodyParameters(Section):
     centre: Place
     inertia: Inertia
     products: Products
+
+
+def increasing(name, pair):
+    """Raise `ValueError` unless the first of two numbers is below the second."""
+    low, high = pair
+    if not low < high:
+        raise ValueError(f"{name} is [{low:g}, {high:g}], the first must be below the second")

@@ -2,7 +2,7 @@
 
 Under a wheel two shoes share the load, so rubber and ground act in series. Sideways the guide horns hold the wheel in
 the band of shoes, which lies fast. The sprockets are braked: they hold the hull by the run of links down to the
-rearmost wheel. The runs at both ends pull sprocket and idler down and the end wheels up, and the upper run hangs on
+nearest wheel. The runs at both ends pull sprocket and idler down and the end wheels up, and the upper run hangs on
 the hull.
 """
 
@@ -14,21 +14,22 @@ from ..numerics.compiled import kernel
 from ..numerics.spatial import load3
 from ..rui.sweeps.articulated import apply_force
 from ..rui.sweeps.kinematics import MotionOffset, motion_vector, point_place, point_velocity
-from .body_tree import SIDES, STATIONS, wheel_name
-from .tracks.layout import end_runs, upper_weight
+from .body_tree import FRONT, REAR, SIDES, drive_end, wheel_name
+from .tracks.layout import end_runs, end_wheels, upper_weight
 
 SHOES_UNDER_WHEEL = 2.0
 
 
 class Supports(NamedTuple):
-    """Springs and dampers against the ground, global axes."""
+    """Springs and dampers against the ground, global axes; ends are the rear and the front one."""
 
-    wheel: np.ndarray  # (12,) rows in the tree
+    wheel: np.ndarray  # (w,) rows in the tree, left side first, front to rear
     hull: int  # row
     brake: np.ndarray  # (2, 3) where the braked sprockets hold the hull, m
-    idler: np.ndarray  # (2, 3) m
-    pull: np.ndarray  # (2, 2) of a track on the hull at sprocket and idler, x and z, N
-    upper_weight: float  # N of a track's links that hang on the hull
+    end: np.ndarray  # (2, 2, 3) hubs of sprockets and idlers in the hull, by side and end, m
+    end_wheel: np.ndarray  # (2, 2) the road wheel next to each, its number in `wheel`
+    pull: np.ndarray  # (2, 2, 2) of a track on the hull by side and end, x and z, N
+    upper_weight: np.ndarray  # (2,) N of each track's links that hang on the hull
     radius: float  # height of a hub over unloaded springs, m
     vertical: tuple  # of each wheel: stiffness N/m, damping N s/m
     lateral: tuple  # likewise
@@ -36,17 +37,21 @@ class Supports(NamedTuple):
 
 
 def build_supports(vehicle, rows, travel):
-    """Return the record for the vehicle with a `travel` [m] of its tensioners."""
-    v = vehicle
+    """Return the record for the vehicle with a `travel` (2,) [m] of its tensioners."""
+    v, stations = vehicle, vehicle.swing_arms.stations
     shoes = (SHOES_UNDER_WHEEL * v.ground.stiffness, SHOES_UNDER_WHEEL * v.ground.damping)
-    run = int(np.hypot(min(v.swing_arms.wheel_x) - v.sprockets.x[0], v.sprockets.z[0]) / v.tracks.pitch)
+    last = v.swing_arms.places[0, 0 if drive_end(v) == FRONT else -1]
+    run = max(1, int(np.hypot(last - v.sprockets.x, v.sprockets.z) / v.tracks.pitch))
     return Supports(
-        wheel=np.array([rows[wheel_name(side, station)] for side in SIDES for station in range(STATIONS)]),
+        wheel=np.array([rows[wheel_name(side, station)] for side in SIDES for station in range(stations)]),
         hull=rows["hull"],
-        brake=np.array([(v.sprockets.x[0], sign * v.sprockets.y, v.sprockets.z[0]) for sign in SIDES.values()]),
-        idler=np.array([(v.idlers.x[0], sign * v.idlers.y, v.idlers.z[0]) for sign in SIDES.values()]),
-        pull=end_runs(v, travel),
-        upper_weight=upper_weight(v, travel),
+        brake=np.array([(v.sprockets.x, sign * v.sprockets.y, v.sprockets.z) for sign in SIDES.values()]),
+        end=np.array(
+            [[(w.x, sign * w.y, w.z) for w in (end_wheels(v)[end] for end in (REAR, FRONT))] for sign in SIDES.values()]
+        ),
+        end_wheel=np.array([(side * stations + stations - 1, side * stations) for side in SIDES]),
+        pull=np.stack([end_runs(v, side, travel[side]) for side in SIDES]),
+        upper_weight=np.array([upper_weight(v, side, travel[side]) for side in SIDES]),
         radius=v.road_wheels.radius,
         vertical=_in_series((v.tyres.radial_stiffness, v.tyres.radial_damping), shoes),
         lateral=(v.tyres.guide_stiffness, v.tyres.guide_damping),
@@ -78,28 +83,19 @@ def add_supports(supports, motion, cuts):
         velocity = point_velocity(motion, supports.hull, place)
         forward = supports.longitudinal[0] * (supports.brake[side, 0] - place[0])
         apply_force(cuts, motion, supports.hull, place, (forward - supports.longitudinal[1] * velocity[0], 0.0, 0.0))
-        _pull(supports, motion, cuts, 0, place, supports.wheel[side * STATIONS + STATIONS - 1])
-        _pull(
-            supports,
-            motion,
-            cuts,
-            1,
-            point_place(motion, supports.hull, load3(supports.idler, side)),
-            supports.wheel[side * STATIONS],
-        )
-
-
-@kernel
-def _pull(supports, motion, cuts, end, place, wheel):
-    x, z = supports.pull[end, 0], supports.pull[end, 1]
-    apply_force(cuts, motion, supports.hull, place, (x, 0.0, z - 0.5 * supports.upper_weight))
-    apply_force(cuts, motion, wheel, motion_vector(motion, MotionOffset.ORIGIN, wheel), (-x, 0.0, -z))
+        for end in range(2):
+            place = point_place(motion, supports.hull, load3(supports.end[side], end))
+            wheel = supports.wheel[supports.end_wheel[side, end]]
+            x, z = supports.pull[side, end, 0], supports.pull[side, end, 1]
+            apply_force(cuts, motion, supports.hull, place, (x, 0.0, z - 0.5 * supports.upper_weight[side]))
+            apply_force(cuts, motion, wheel, motion_vector(motion, MotionOffset.ORIGIN, wheel), (-x, 0.0, -z))
 
 
 def pulls(supports):
     """Yield row in the tree, point in body axes (3,) [m] and force (3,) [N] of all that does not change with place."""
-    for side in range(len(SIDES)):
-        ends = (supports.brake[side], STATIONS - 1), (supports.idler[side], 0)
-        for (place, station), (x, z) in zip(ends, supports.pull, strict=True):
-            yield supports.hull, place, np.array([x, 0.0, z - 0.5 * supports.upper_weight])
-            yield supports.wheel[side * STATIONS + station], np.zeros(3), np.array([-x, 0.0, -z])
+    for side in SIDES:
+        for end in range(2):
+            x, z = supports.pull[side, end]
+            wheel = supports.wheel[supports.end_wheel[side, end]]
+            yield supports.hull, supports.end[side, end], np.array([x, 0.0, z - 0.5 * supports.upper_weight[side]])
+            yield wheel, np.zeros(3), np.array([-x, 0.0, -z])

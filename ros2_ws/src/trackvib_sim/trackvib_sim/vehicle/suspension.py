@@ -6,56 +6,62 @@ from typing import NamedTuple
 import numpy as np
 
 from ..numerics.compiled import kernel
-from .body_tree import SIDES, STATIONS, arm_name
+from .body_tree import SIDES, arm_name
+from .running_gear_parameters import at_stations
 
 
 class Suspension(NamedTuple):
-    """The twelve swing arms; angles are jounce positive and zero at static ride height."""
+    """All swing arms, a arms; angles are jounce positive and zero at static ride height."""
 
-    row: np.ndarray  # (12,) row of the arm in the tree
-    has_shock: np.ndarray  # (12,) 1.0 or 0.0
+    row: np.ndarray  # (a,) row of the arm in the tree
     length: float  # m
-    bar_stiffness: float  # N m/rad
-    preload: float  # N m that the bar holds at angle zero
-    friction: float  # N m s/rad
-    shock_damping: float  # N s/m at the wheel
-    blow_off_force: float  # N
-    blow_off_damping: float  # N s/m beyond the blow-off force
-    stop_angle: float  # rad
-    stop_stiffness: float  # N m/rad
-    stop_damping: float  # N m s/rad
+    bar_stiffness: np.ndarray  # (a,) N m/rad
+    preload: np.ndarray  # (a,) N m that the bar holds at angle zero
+    friction: np.ndarray  # (a,) N m s/rad
+    shock_damping: np.ndarray  # (a,) N s/m at the wheel; zero without a shock absorber
+    blow_off_force: np.ndarray  # (a,) N
+    blow_off_damping: np.ndarray  # (a,) N s/m beyond the blow-off force
+    stop_angle: np.ndarray  # (a,) rad
+    stop_stiffness: np.ndarray  # (a,) N m/rad
+    stop_damping: np.ndarray  # (a,) N m s/rad
 
 
 def build_suspension(vehicle, rows, load):
-    """Return the record for the vehicle; `load` [N] is what the twelve bars carry in equal shares at angle zero."""
+    """Return the record for the vehicle.
+
+    `load` [N] is what all bars carry in equal shares at angle zero, unless the file gives their preload.
+    """
     arms, shocks = vehicle.swing_arms, vehicle.shock_absorbers
-    angle = radians(arms.static_angle)
+    stations, angle = arms.stations, radians(arms.static_angle)
     reach = arms.length * cos(angle)
-    share = load / (len(SIDES) * STATIONS)
-    carriers = {int(station) - 1 for station in shocks.stations}
+
+    def both_sides(values, factor=1.0):
+        return np.tile(factor * at_stations(values, stations), len(SIDES))
+
+    share = load / (len(SIDES) * stations)
+    stop = [angle - asin(sin(angle) - travel / arms.length) for travel in arms.bump_travel]
     return Suspension(
-        row=np.array([rows[arm_name(side, station)] for side in SIDES for station in range(STATIONS)]),
-        has_shock=np.array([float(station in carriers) for _ in SIDES for station in range(STATIONS)]),
+        row=np.array([rows[arm_name(side, station)] for side in SIDES for station in range(stations)]),
         length=arms.length,
-        bar_stiffness=arms.wheel_rate * reach**2,
-        preload=share * reach,
-        friction=arms.friction * arms.length**2,
-        shock_damping=shocks.damping,
-        blow_off_force=shocks.blow_off_force,
-        blow_off_damping=shocks.blow_off_damping,
-        stop_angle=angle - asin(sin(angle) - arms.bump_travel / arms.length),
-        stop_stiffness=arms.bump_stiffness * arms.length**2,
-        stop_damping=arms.bump_damping * arms.length**2,
+        bar_stiffness=both_sides(arms.wheel_rate, reach**2),
+        preload=both_sides(arms.preload or [share * reach]),
+        friction=both_sides(arms.friction, arms.length**2),
+        shock_damping=both_sides(shocks.damping),
+        blow_off_force=both_sides(shocks.blow_off_force),
+        blow_off_damping=both_sides(shocks.blow_off_damping),
+        stop_angle=both_sides(stop),
+        stop_stiffness=both_sides(arms.bump_stiffness, arms.length**2),
+        stop_damping=both_sides(arms.bump_damping, arms.length**2),
     )
 
 
 @kernel
-def shock_force(suspension, speed):
-    """Return the force of a shock absorber against a wheel speed [m/s]: linear up to the blow-off force."""
-    force = suspension.shock_damping * abs(speed)
-    if force > suspension.blow_off_force:
-        beyond = abs(speed) - suspension.blow_off_force / suspension.shock_damping
-        force = suspension.blow_off_force + suspension.blow_off_damping * beyond
+def shock_force(suspension, i, speed):
+    """Return the force of arm i's shock absorber against a wheel speed [m/s]: linear up to the blow-off force."""
+    damping, blow_off = suspension.shock_damping[i], suspension.blow_off_force[i]
+    force = damping * abs(speed)
+    if force > blow_off:
+        force = blow_off + suspension.blow_off_damping[i] * (abs(speed) - blow_off / damping)
     return force if speed >= 0.0 else -force
 
 
@@ -66,9 +72,9 @@ def add_suspension(suspension, state, torques):
     for i in range(s.row.size):
         b = s.row[i]
         angle, rate = state.hinge[b], state.hinge_rate[b]
-        torque = -s.preload - s.bar_stiffness * angle - s.friction * rate
-        torque -= s.has_shock[i] * s.length * shock_force(s, s.length * rate)
-        if angle > s.stop_angle:
+        torque = -s.preload[i] - s.bar_stiffness[i] * angle - s.friction[i] * rate
+        torque -= s.length * shock_force(s, i, s.length * rate)
+        if angle > s.stop_angle[i]:
             # a stop only pushes
-            torque += min(0.0, -s.stop_stiffness * (angle - s.stop_angle) - s.stop_damping * rate)
+            torque += min(0.0, -s.stop_stiffness[i] * (angle - s.stop_angle[i]) - s.stop_damping[i] * rate)
         torques[b] += torque

@@ -7,21 +7,21 @@ import numpy as np
 
 from ..rui.state import TreeState
 from ..rui.sweeps.articulated import Cuts, new_cuts
-from ..rui.sweeps.kinematics import Motion, new_motion
+from ..rui.sweeps.elastic import elastic_place
+from ..rui.sweeps.kinematics import Motion, new_motion, update_motion
 from ..rui.sweeps.riccati import Response, new_response
 from ..rui.sweeps.tree import Tree, build_tree, new_rows, rest_lanes
-from .body_tree import GRAVITY, build_body_table
+from .body_tree import GRAVITY, build_body_table, sprung_bodies
 from .coil import Coil, CoilState, build_coil, new_coil_state
 from .driver import Driver, build_driver
 from .engine import Engine, RunUp, build_engine
 from .hinge_springs import HingeSprings, build_hinge_springs
 from .mount_energy import MountEnergyState, new_mount_energy_state
-from .mr_mounts import MrMounts, build_mr_mounts
+from .mount_loads import loads_at_rest
+from .mounts import Mounts, build_mounts
 from .supports import Supports, build_supports
 from .suspension import Suspension, build_suspension
 from .tracks.tracks import Tracks, TrackState, TrackWork, build_tracks, new_track_state, new_track_work
-
-SPRUNG = ("hull", "turret", "gun_mount", "recoil_part", "powertrain")
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class System(NamedTuple):
     tree: Tree
     springs: HingeSprings
     suspension: Suspension
-    mounts: MrMounts
+    mounts: Mounts
     coil: Coil
     engine: Engine
     driver: Driver
@@ -95,14 +95,14 @@ def build_system(vehicle, operation, dt):
     mass = {body.name: body.mass for body in table}
     running_tracks = build_tracks(vehicle, rows)
     standing = build_supports(vehicle, rows, running_tracks.tensioner.fitted)
-    pull = 2.0 * (standing.upper_weight - standing.pull[:, 1].sum())
-    load = sum(mass[name] for name in SPRUNG) * GRAVITY + pull
+    pull = sum(weight - down.sum() for weight, down in zip(standing.upper_weight, standing.pull[:, :, 1], strict=True))
+    load = sum(mass[name] for name in sprung_bodies(vehicle)) * GRAVITY + pull
     return System(
         dt=dt,
         tree=tree,
         springs=build_hinge_springs(vehicle, rows),
         suspension=build_suspension(vehicle, rows, load),
-        mounts=build_mr_mounts(vehicle, rows),
+        mounts=build_mounts(vehicle, rows, loads_at_rest(vehicle)),
         coil=build_coil(vehicle, dt),
         engine=build_engine(vehicle, rows, operation.engine_speed, operation.imposed_displacement, operation.run_up),
         driver=build_driver(vehicle, rows, operation.speed),
@@ -119,14 +119,23 @@ def body_rows(vehicle, tree):
 def new_state(system):
     """Return a state with every coordinate at zero and no track laid."""
     return State(
-        tree=rest_lanes(system.tree),
+        tree=_rest(system.tree),
         tracks=new_track_state(system.tracks),
-        coils=new_coil_state(system.coil),
+        coils=new_coil_state(system.coil, system.mounts.coils),
         crank_angle=np.zeros(1),
         speed_integral=np.zeros(1),
         flight=np.zeros(1),
-        mount_energy=new_mount_energy_state(),
+        mount_energy=new_mount_energy_state(len(system.mounts.body)),
     )
+
+
+def _rest(tree):
+    """Return the state of a tree with every coordinate zero and the bodies behind elastic hinges in their places."""
+    state, motion = rest_lanes(tree), new_motion(tree)
+    for k in range(len(tree.elastic.child)):
+        update_motion(tree, state, motion)
+        state.position[1 + k] = elastic_place(tree, motion, k)
+    return state
 
 
 def new_work(system):

@@ -43,7 +43,7 @@ def read_vehicle(path: str | Path) -> tuple[Vehicle, str]:
     Examples
     --------
     >>> import trackvib_sim as tv
-    >>> vehicle, text = tv.read_vehicle(tv.default_vehicle_file())
+    >>> vehicle, text = tv.read_vehicle(tv.find_vehicle())
     >>> vehicle.tracks.links, vehicle.tracks.pitch  # a side, m
     (120.0, 0.115)
     """

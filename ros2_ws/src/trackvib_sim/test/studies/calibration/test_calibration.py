@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from rich.progress import Progress
-from trackvib_sim.data import default_vehicle_file, paper_table_file
+from trackvib_sim.data import find_vehicle, paper_table_file
 from trackvib_sim.studies.calibration.history import Candidate, History, HistoryError
 from trackvib_sim.studies.calibration.objective import FAILED, cases, objective, ratios
 from trackvib_sim.studies.calibration.plan import Parameter, Plan
@@ -67,7 +67,7 @@ def test_a_failed_run_costs_a_fixed_value():
 @pytest.mark.parametrize("pitch", ["0.2", "-1.0"])
 def test_a_vehicle_that_cannot_be_built_is_a_failed_run(pitch):
     """Links too long for the running gear and a value that no vehicle file may have give a reason, not an end."""
-    text = default_vehicle_file().read_text()
+    text = find_vehicle().read_text()
     assert "pitch: {value: 0.115," in text
     result = attempt(text.replace("pitch: {value: 0.115,", f"pitch: {{value: {pitch},"), cases(ROWS, 1)[0], 1.0)
     assert result.status.startswith("failed: ") and "tracks.pitch" in result.status and not result.rms

@@ -5,7 +5,7 @@ import pytest
 import yaml
 from hypothesis import given
 from hypothesis import strategies as st
-from trackvib_sim.data import calibration_plan_file, default_vehicle_file, paper_table_file
+from trackvib_sim.data import calibration_plan_file, find_vehicle, paper_table_file
 from trackvib_sim.studies.calibration.plan import DIGITS, Parameter, PlanError, read_plan
 from trackvib_sim.studies.calibration.vehicle_text import calibrated_vehicle_text, number
 from trackvib_sim.studies.paper.paper_table import read_table
@@ -17,7 +17,7 @@ pytestmark = pytest.mark.property
 @pytest.fixture(scope="module")
 def text():
     """The text of the vehicle file that comes with the package."""
-    return read_vehicle(default_vehicle_file())[1]
+    return read_vehicle(find_vehicle())[1]
 
 
 @pytest.fixture(scope="module")

@@ -31,19 +31,39 @@ def elastic_wrench(tree, motion, k):
     the same place, moment likewise with the rotation vector. Both act at the child's origin, so that no couple is left.
     """
     hinges = tree.elastic
-    parent, child = hinges.parent[k], hinges.child[k]
+    shift, turned, velocity, rate = _deformation(tree, motion, k)
+    axes = rotation(motion, hinges.parent[k])
+    force = _bush(hinges.stiffness[k, :3], hinges.damping[k, :3], shift, velocity)
+    moment = _bush(hinges.stiffness[k, 3:], hinges.damping[k, 3:], turned, rate)
+    return rotate(axes, force), rotate(axes, moment)
+
+
+@kernel
+def elastic_energy(tree, motion, k):
+    """Return what elastic hinge k stores [J] and the power that it turns into heat [W]; rotations are small."""
+    stored, dissipated = 0.0, 0.0
+    hinges = tree.elastic
+    shift, turned, velocity, rate = _deformation(tree, motion, k)
+    for i in range(3):
+        stored += 0.5 * hinges.stiffness[k, i] * shift[i] ** 2 + 0.5 * hinges.stiffness[k, 3 + i] * turned[i] ** 2
+        dissipated += hinges.damping[k, i] * velocity[i] ** 2 + hinges.damping[k, 3 + i] * rate[i] ** 2
+    return stored, dissipated
+
+
+@kernel
+def _deformation(tree, motion, k):
+    """Displacement, rotation vector and the rates of both, in the parent's axes."""
+    parent, child = tree.elastic.parent[k], tree.elastic.child[k]
     axes, origin = rotation(motion, parent), motion_vector(motion, MotionOffset.ORIGIN, child)
     arm = rotate_back(axes, subtract(origin, motion_vector(motion, MotionOffset.ORIGIN, parent)))
-    shift = subtract(arm, load3(hinges.place, k))
     velocity = subtract(point_velocity(motion, child, origin), point_velocity(motion, parent, origin))
     rate = subtract(
         motion_vector(motion, MotionOffset.ANGULAR_VELOCITY, child),
         motion_vector(motion, MotionOffset.ANGULAR_VELOCITY, parent),
     )
     turned = rotation_vector(_relative(axes, rotation(motion, child)))
-    force = _bush(hinges.stiffness[k, :3], hinges.damping[k, :3], shift, rotate_back(axes, velocity))
-    moment = _bush(hinges.stiffness[k, 3:], hinges.damping[k, 3:], turned, rotate_back(axes, rate))
-    return rotate(axes, force), rotate(axes, moment)
+    shift = subtract(arm, load3(tree.elastic.place, k))
+    return shift, turned, rotate_back(axes, velocity), rotate_back(axes, rate)
 
 
 @kernel

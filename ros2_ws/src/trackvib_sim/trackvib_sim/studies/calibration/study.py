@@ -6,7 +6,7 @@ from dask.system import CPU_COUNT
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
 from ...console import Description, Terminal
-from ...data import calibration_plan_file, default_vehicle_file, paper_table_file
+from ...data import calibration_plan_file, find_vehicle, paper_table_file
 from ...new_files import new_file
 from ...vehicle.vehicle_file import parse_vehicle, read_vehicle
 from ..case_store import program, text_hash
@@ -42,7 +42,7 @@ def run_calibrate(plan_file, vehicle_file, generations, scheduler, out):
     PlanError, VehicleFileError, HistoryError, WorkersError, OSError
         Plan, vehicle file or the folder cannot be used, or nothing can run.
     """
-    vehicle, text = read_vehicle(vehicle_file or default_vehicle_file())
+    vehicle, text = read_vehicle(find_vehicle(vehicle_file))
     given = read_table(paper_table_file())
     plan = read_plan(plan_file or calibration_plan_file(), text, given)
     paper = {row: given[row] for row in plan.rows}

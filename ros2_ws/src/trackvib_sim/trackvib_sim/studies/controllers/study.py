@@ -10,7 +10,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemaining
 from rich.table import Table
 
 from ...console import Description, Terminal
-from ...data import default_vehicle_file
+from ...data import find_vehicle
 from ...new_files import new_file
 from ...vehicle.vehicle_file import read_vehicle
 from ..case_store import CaseStore
@@ -45,7 +45,7 @@ def run_controllers(laws, scenarios, seeds, vehicle_file, scheduler, out):
     """
     laws = [name for name in laws or known_laws() if name != PASSIVE]
     classes = [find_law(name) for name in laws]
-    path = Path(vehicle_file or default_vehicle_file())
+    path = Path(find_vehicle(vehicle_file))
     vehicle, text = read_vehicle(path)
     folder, console = Path(out), Terminal()
     store = CaseStore(folder / "cases", text + controllers(classes), ControlCase, ControlResult)

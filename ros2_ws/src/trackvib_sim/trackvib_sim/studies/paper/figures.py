@@ -7,7 +7,7 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TimeRemaining
 
 from ...analysis.numbers import SENSORS
 from ...console import Description, Terminal
-from ...data import default_vehicle_file
+from ...data import find_vehicle
 from ...new_files import new_file
 from ...road.iso8608 import FADE, Iso8608Road
 from ...simulation.simulation import RunFailed
@@ -37,7 +37,7 @@ def run_figures(out, scheduler):
     ValueError
         The case that is drawn has left the valid range.
     """
-    vehicle, text = read_vehicle(default_vehicle_file())
+    vehicle, text = read_vehicle(find_vehicle())
     folder, console = Path(out), Terminal()
     store = CaseStore(folder / "cases", text)
     cases = [Case(road_class, speed, SEED, TRACK_PHASE) for road_class in CLASSES for speed in SPEEDS]

@@ -8,7 +8,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemaining
 from rich.table import Table
 
 from ...console import Description, Terminal
-from ...data import default_vehicle_file, paper_table_file
+from ...data import find_vehicle, paper_table_file
 from ...new_files import new_file
 from ...vehicle.vehicle_file import read_vehicle
 from ..case import BAND, GOOD, Case
@@ -41,7 +41,7 @@ def run_table1(classes, speeds, seeds, vehicle_file, scheduler, out):
     WorkersError, VehicleFileError, OSError
         Nothing can run, the vehicle file or the folder cannot be used.
     """
-    path = Path(vehicle_file or default_vehicle_file())
+    path = Path(find_vehicle(vehicle_file))
     vehicle, text = read_vehicle(path)
     paper = read_table(paper_table_file())
     folder, console = Path(out), Terminal()

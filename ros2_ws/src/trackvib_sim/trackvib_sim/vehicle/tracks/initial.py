@@ -4,7 +4,7 @@ from math import pi
 
 import numpy as np
 
-from ..body_tree import GRAVITY, build_body_table
+from ..body_tree import GRAVITY, SIDES, build_body_table, drive_end
 from .layout import assemble_track, sink
 from .nodes import STRIDE
 from .sprockets import pitch_radius
@@ -18,37 +18,42 @@ def assemble_tracks(vehicle, system, state, speed, phase):
     The right track lies `phase` pitches further along its way than the left one. Tension, rotation of the wheels and
     teeth fit together but for the weights of the upper runs and the polygon effect; a run-in settles those.
     """
-    tracks, travel, height = system.tracks, system.tracks.tensioner.fitted, -sink(vehicle)
-    n, radius = tracks.chain.links, pitch_radius(vehicle)
-    state.tree.position[0] = (0.0, 0.0, height)
-    state.tree.velocity[0] = (speed, 0.0, 0.0)
-    if speed > 0.0:
-        state.speed_integral[0] = DRAG * sum(body.mass for body in build_body_table(vehicle)) * GRAVITY
+    tracks, height, radius = system.tracks, -sink(vehicle), pitch_radius(vehicle)
+    end = drive_end(vehicle)
+    state.tree.position[:, 2] += height
+    state.tree.velocity[:, 0] = speed
+    weight = sum(body.mass for body in build_body_table(vehicle)) * GRAVITY
+    state.speed_integral[0] = np.sign(speed) * DRAG * weight
     state.tree.hinge_rate[tracks.wheels.row] = speed / tracks.wheels.radius
     state.tree.hinge_rate[tracks.sprockets.row] = speed / radius
-    state.tracks.tensioner.travel[:] = travel
-    sprocket = np.array([vehicle.sprockets.x[0], vehicle.sprockets.z[0]])
-    for side, y in enumerate((vehicle.sprockets.y, -vehicle.sprockets.y)):
-        place, direction = assemble_track(vehicle, travel, phase if side else 0.0)
+    state.tracks.tensioner.travel[:] = tracks.tensioner.fitted
+    sprocket = np.array([vehicle.sprockets.x, vehicle.sprockets.z])
+    for side, sign in SIDES.items():
+        n, travel = tracks.chain.links[side], tracks.tensioner.fitted[side]
+        place, direction = assemble_track(vehicle, side, travel, phase if side else 0.0)
         node = state.tracks.nodes[side].reshape(-1, STRIDE)[:, 1 : n + 1]
-        node[0], node[1], node[2] = place[:, 0], y, place[:, 1] + height
+        node[0], node[1], node[2] = place[:, 0], sign * vehicle.sprockets.y, place[:, 1] + height
         # against the order of the chain, which lies still on the ground
         node[3], node[5] = speed * (1.0 - direction[:, 0]), -speed * direction[:, 1]
-        state.tracks.link[side] = [1 + _nearest(place, point) for point in _lowest_points(vehicle, travel)]
-        rear, teeth = _nearest(place, sprocket - (radius, 0.0)), tracks.sprockets.teeth
+        touched = [1 + _nearest(place, point) for point in _touched_points(vehicle, side, travel)]
+        state.tracks.link[side] = touched
+        outermost, teeth = _nearest(place, sprocket + (end * radius, 0.0)), tracks.sprockets.teeth
         angle = _tooth_angle(place - sprocket, radius, teeth)
-        behind = np.arctan2(place[rear, 1] - sprocket[1], sprocket[0] - place[rear, 0])
+        x, z = place[outermost] - sprocket
         state.tree.hinge[tracks.sprockets.row[side]] = angle
-        state.tracks.rear[side] = 1 + rear
-        state.tracks.passed[side] = 0.5 * (angle - behind) * teeth / pi
+        state.tracks.outermost[side] = 1 + outermost
+        state.tracks.passed[side] = 0.5 * (angle - np.arctan2(-end * z, end * x)) * teeth / pi
 
 
-def _lowest_points(vehicle, travel):
+def _touched_points(vehicle, side, travel):
     """Where each wheel touches the chain, in the order of `wheels.Wheels`."""
-    v, rollers = vehicle, vehicle.carrier_rollers
-    yield from ((x, 0.0) for x in v.swing_arms.wheel_x)
-    yield from ((x, z + rollers.radius) for x, z in zip(rollers.x, rollers.z, strict=True))
-    yield v.idlers.x[0] + travel + v.idlers.radius, v.idlers.z[0]
+    v, rollers, idlers, wheels = vehicle, vehicle.carrier_rollers, vehicle.idlers, vehicle.road_wheels
+    yield from ((x, 0.0) for x in v.swing_arms.places[side])
+    if rollers:
+        yield from ((x, z + rollers.radius) for x, z in zip(rollers.x, rollers.z, strict=True))
+    else:
+        yield from ((x, 2.0 * wheels.radius) for x in v.swing_arms.places[side])
+    yield idlers.x - drive_end(v) * (travel + idlers.radius), idlers.z
 
 
 def _nearest(place, point):

@@ -1,13 +1,13 @@
 """How a track is laid: taut round wheels, rollers, idler and sprocket, every link at pretension.
 
-Places are those in the hull, x and z, at static ride height.
+Places are those in the hull, x and z, at static ride height. A tensioner's travel is positive outwards.
 """
 
 import numpy as np
 from scipy.optimize import brentq
 from scipy.spatial import ConvexHull, QhullError
 
-from ..body_tree import GRAVITY, SIDES, STATIONS, build_body_table
+from ..body_tree import GRAVITY, SIDE_NAMES, SIDES, build_body_table, drive_end
 from .sprockets import pitch_radius
 
 _CORNERS = 2000  # of the polygons that stand for circles; they are 1e-6 of the radius too small
@@ -18,8 +18,8 @@ class TrackDoesNotFit(ValueError):
     """The links cannot be laid round the running gear within the tensioner's travel."""
 
 
-def fit_idler(vehicle):
-    """Return the travel of the tensioners [m] at which the links, all at pretension, close round the running gear.
+def fit_idler(vehicle, side):
+    """Return the travel of a side's tensioner [m] at which its links, all at pretension, close round the running gear.
 
     Raises
     ------
@@ -27,67 +27,76 @@ def fit_idler(vehicle):
         There is no such travel.
     """
     t, limit = vehicle.tracks, vehicle.tensioners.travel
+    links = t.links[side]
 
     def excess(travel):
-        line = _taut_line(vehicle, travel)
-        return _walk(vehicle, line, 0.0)[-1] - line.arc[-1]
+        line = _taut_line(vehicle, side, travel)
+        return _walk(vehicle, side, line, 0.0)[-1] - line.arc[-1]
 
-    shortest, longest = excess(limit), excess(-limit)
-    if not shortest <= 0.0 <= longest:
-        pitches = [(t.links - value / t.pitch) * t.pitch for value in (longest, shortest)]
+    most, least = excess(-limit), excess(limit)  # room for the links grows with travel
+    if not least <= 0.0 <= most:
+        low, high = sorted((links - value / t.pitch) * t.pitch for value in (most, least))
         raise TrackDoesNotFit(
-            f"tracks.links x tracks.pitch is {t.links * t.pitch:.3f} m, must be {pitches[0]:.3f} to {pitches[1]:.3f} m "
-            f"to fit round the running gear within the tensioners.travel of {limit:g} m"
+            f"tracks.links x tracks.pitch is {links * t.pitch:.3f} m on the {SIDE_NAMES[side]}, must be {low:.3f} to "
+            f"{high:.3f} m to fit round the running gear within the tensioners.travel of {limit:g} m"
         )
     return brentq(excess, -limit, limit, xtol=1e-9)
 
 
-def idler_load(vehicle, travel):
-    """Return the force [N] with which the pretension of both runs pulls an idler rearwards."""
-    line = _taut_line(vehicle, travel)
-    on_idler = np.hypot(*(line.corner - (vehicle.idlers.x[0] + travel, vehicle.idlers.z[0])).T)
-    touching = np.flatnonzero(on_idler < _idler_circle(vehicle) + 1e-9)
+def end_wheels(vehicle):
+    """Return the sections of the wheels at the track's ends, sprockets and idlers, by `FRONT` and `REAR`."""
+    end = drive_end(vehicle)
+    return {end: vehicle.sprockets, -end: vehicle.idlers}
+
+
+def idler_load(vehicle, side, travel):
+    """Return the force [N] with which the pretension of both runs pulls an idler inwards."""
+    line, outwards = _taut_line(vehicle, side, travel), -drive_end(vehicle)
+    hub = (vehicle.idlers.x + outwards * travel, vehicle.idlers.z)
+    touching = np.flatnonzero(np.hypot(*(line.corner - hub).T) < _idler_circle(vehicle) + 1e-9)
     tangent = np.diff(line.corner, axis=0)
     tangent /= np.linalg.norm(tangent, axis=1)[:, None]
-    # the line enters the idler forwards and leaves it rearwards
-    return vehicle.tracks.pretension * (tangent[touching[0] - 1, 0] - tangent[touching[-1], 0])
+    # the line enters the idler outwards and leaves it inwards
+    inwards = tangent[touching[0] - 1, 0] - tangent[touching[-1], 0]
+    return vehicle.tracks.pretension[side] * outwards * inwards
 
 
-def end_runs(vehicle, travel):
-    """Return what a standing track's ends pull with, forces (2, 2) [N], x and z: at the sprocket and at the idler.
+def end_runs(vehicle, side, travel):
+    """Return what a standing track's ends pull with, forces (2, 2) [N], x and z: at the rear and at the front.
 
     Each is the tension of the run down to the end wheel and, against it, that of the level runs; the end wheel is
     pulled the opposite way.
     """
-    line, cut = _cut(vehicle, travel)
+    line, cut = _cut(vehicle, side, travel)
     down = np.diff(line.corner, axis=0)[cut]
     down *= -np.sign(down[:, 1:]) / np.linalg.norm(down, axis=1)[:, None]
     down = down[np.argsort(line.corner[cut, 0])]
-    return vehicle.tracks.pretension * (down - np.array([[1.0, 0.0], [-1.0, 0.0]]))
+    return vehicle.tracks.pretension[side] * (down - np.array([[1.0, 0.0], [-1.0, 0.0]]))
 
 
-def upper_weight(vehicle, travel):
+def upper_weight(vehicle, side, travel):
     """Return the weight [N] of those links of one track that hang on sprocket, rollers and idler."""
-    line, cut = _cut(vehicle, travel)
+    line, cut = _cut(vehicle, side, travel)
     above = abs(np.diff(line.arc[cut])[0]) / line.arc[-1]
     # the line begins under a road wheel, so that what lies between the cuts is the upper part
-    return above * vehicle.tracks.links * vehicle.tracks.shoe_mass * GRAVITY
+    return above * vehicle.tracks.links[side] * vehicle.tracks.shoe_mass * GRAVITY
 
 
-def _cut(vehicle, travel):
-    """The taut line and its two sides that are cut at half the height of the idler's lowest point."""
-    line = _taut_line(vehicle, travel)
-    above = line.corner[:, 1] > 0.5 * (vehicle.idlers.z[0] - vehicle.idlers.radius)
+def _cut(vehicle, side, travel):
+    """The taut line and its two sides that are cut at half the height of the lower end wheel's lowest point."""
+    line, idlers = _taut_line(vehicle, side, travel), vehicle.idlers
+    lowest = min(idlers.z - idlers.radius, vehicle.sprockets.z - pitch_radius(vehicle))
+    above = line.corner[:, 1] > 0.5 * max(lowest, 3.0 * sink(vehicle))
     return line, np.flatnonzero(above[:-1] != above[1:])
 
 
-def assemble_track(vehicle, travel, phase):
-    """Return places (n, 2) of the pins in the order of the chain and the line's directions (n, 2) there.
+def assemble_track(vehicle, side, travel, phase):
+    """Return places (n, 2) of a side's pins in the order of the chain and the line's directions (n, 2) there.
 
     The first pin lies `phase` pitches ahead of the rearmost road wheel's lowest point.
     """
-    line = _taut_line(vehicle, travel)
-    arc = _walk(vehicle, line, phase * vehicle.tracks.pitch)
+    line = _taut_line(vehicle, side, travel)
+    arc = _walk(vehicle, side, line, phase * vehicle.tracks.pitch)
     # what little the chords on the arcs do not close is spread over all links
     arc = arc[:-1] - (arc[-1] - arc[0] - line.arc[-1]) * np.arange(len(arc) - 1) / (len(arc) - 1)
     place = line.at(arc)
@@ -99,7 +108,7 @@ def assemble_track(vehicle, travel, phase):
 def sink(vehicle):
     """Return how far the road wheels' rubber gives under an equal share of the weight of all bodies [m]."""
     weight = sum(body.mass for body in build_body_table(vehicle)) * GRAVITY
-    return weight / (len(SIDES) * STATIONS * vehicle.tyres.radial_stiffness)
+    return weight / (len(SIDES) * vehicle.swing_arms.stations * vehicle.tyres.radial_stiffness)
 
 
 def _idler_circle(vehicle):
@@ -120,18 +129,19 @@ class _Line:
         return np.stack([np.interp(arc, self.arc, self.corner[:, k]) for k in range(2)], axis=-1)
 
 
-def _taut_line(vehicle, travel):
+def _taut_line(vehicle, side, travel):
     v, wheels, given = vehicle, vehicle.road_wheels, sink(vehicle)
     if not given < wheels.radius:
         raise TrackDoesNotFit(
             f"tyres.radial_stiffness is {v.tyres.radial_stiffness:g} N/m, so that the road wheels give by {given:g} m "
             f"under the vehicle's weight, must be less than road_wheels.radius, {wheels.radius:g} m"
         )
+    rollers, wheel_x = v.carrier_rollers, v.swing_arms.places[side]
     circles = [
-        *((x, wheels.radius, wheels.radius - given) for x in v.swing_arms.wheel_x),
-        *((x, z, v.carrier_rollers.radius) for x, z in zip(v.carrier_rollers.x, v.carrier_rollers.z, strict=True)),
-        (v.idlers.x[0] + travel, v.idlers.z[0], _idler_circle(v)),
-        (v.sprockets.x[0], v.sprockets.z[0], pitch_radius(v)),
+        *((x, wheels.radius, wheels.radius - given) for x in wheel_x),
+        *((x, z, rollers.radius) for x, z in (zip(rollers.x, rollers.z, strict=True) if rollers else ())),
+        (v.idlers.x - drive_end(v) * travel, v.idlers.z, _idler_circle(v)),
+        (v.sprockets.x, v.sprockets.z, pitch_radius(v)),
     ]
     angle = 2.0 * np.pi * np.arange(_CORNERS) / _CORNERS
     round_about = np.stack((np.cos(angle), np.sin(angle)), axis=1)
@@ -143,14 +153,14 @@ def _taut_line(vehicle, travel):
         raise TrackDoesNotFit(
             f"the running gear is {length:g} m long and {height:g} m high, must leave room within a track"
         ) from None
-    lowest_rear = np.argmin(np.hypot(*(corner - (min(v.swing_arms.wheel_x), given)).T))
+    lowest_rear = np.argmin(np.hypot(*(corner - (min(wheel_x), given)).T))
     return _Line(np.roll(corner, -lowest_rear, axis=0))
 
 
-def _walk(vehicle, line, start):
+def _walk(vehicle, side, line, start):
     """Arc lengths (n + 1,) of pins whose straight distance is the pitch."""
     t = vehicle.tracks
-    arc = np.empty(int(t.links) + 1)
+    arc = np.empty(int(t.links[side]) + 1)
     arc[0] = start
     for i in range(len(arc) - 1):
         here, there = line.at(arc[i]), arc[i] + t.pitch

@@ -22,8 +22,8 @@ from ...numerics.compiled import inlined, kernel
 from ...rui.sweeps.cells import new_cells
 from ...rui.sweeps.kinematics import MotionOffset, motion_vector, rotation
 
-STRIDE = 200
-MOST_LINKS = STRIDE - 2
+STRIDE = 264
+FEWEST_LINKS, MOST_LINKS = 30, 250
 
 
 class NodeOffset(IntEnum):
@@ -55,14 +55,14 @@ class NodeWorkOffset(IntEnum):
 
 
 class Chain(NamedTuple):
-    """What both tracks have in common."""
+    """Both tracks, left first."""
 
-    links: int
+    links: np.ndarray  # (2,)
     hull: int  # row in the tree
     shoe_mass: float  # kg
     stiffness: float  # N/m of one link
     damping: float  # N s/m
-    free_length: float  # m of a link without tension
+    free_length: np.ndarray  # (2,) m of a link without tension
     pin_stiffness: float  # N m/rad about the pin
     sideways_stiffness: float  # N m/rad about the other axes
     pin_damping: float  # N m s/rad
@@ -72,12 +72,12 @@ def build_chain(vehicle, rows):
     """Return the record for the vehicle."""
     t = vehicle.tracks
     return Chain(
-        links=int(t.links),
+        links=np.array(t.links, dtype=np.int64),
         hull=rows["hull"],
         shoe_mass=t.shoe_mass,
         stiffness=t.link_stiffness,
         damping=t.link_damping,
-        free_length=t.pitch - t.pretension / t.link_stiffness,
+        free_length=t.pitch - np.array(t.pretension) / t.link_stiffness,
         pin_stiffness=t.pin_stiffness,
         sideways_stiffness=t.sideways_stiffness,
         pin_damping=t.pin_damping,
@@ -103,9 +103,8 @@ def close_chain(cells, first, count, n):
 
 
 @kernel
-def see_from_hull(chain, nodes, motion, work):
-    """Express places and velocities of one track's nodes in hull axes, and clear the forces on them."""
-    n = chain.links
+def see_from_hull(chain, n, nodes, motion, work):
+    """Express places and velocities of a track's n nodes in hull axes, and clear the forces on them."""
     r = rotation(motion, chain.hull)
     o = motion_vector(motion, MotionOffset.ORIGIN, chain.hull)
     for i in range(1, n + 1):
@@ -123,14 +122,14 @@ def see_from_hull(chain, nodes, motion, work):
 
 
 @kernel
-def add_links(chain, work):
-    """Fill the forces of links and pins; returns the power that they turn into heat [W] and what they store [J].
+def add_links(chain, side, work):
+    """Fill the forces of a side's links and pins; returns the power that becomes heat [W] and what they store [J].
 
     A link is a spring and damper along itself. A pin resists the turning of one link against the next by
     stiffness (that of its rubber about its own axis, that of the band of shoes about the others) and damping; the
     moments reach the nodes as couples, so that forces and, but for twist, moments are in balance.
     """
-    n = chain.links
+    n, free_length = chain.links[side], chain.free_length[side]
     dissipation, stored = 0.0, 0.0
     for i in range(1, n + 1):
         x = work[i + 1] - work[i]
@@ -144,7 +143,7 @@ def add_links(chain, work):
         short = 1.0 / length
         x, y, z = x * short, y * short, z * short
         rate = x * vx + y * vy + z * vz
-        stretch = length - chain.free_length
+        stretch = length - free_length
         work[NodeWorkOffset.DIRECTION * STRIDE + i] = x
         work[(NodeWorkOffset.DIRECTION + 1) * STRIDE + i] = y
         work[(NodeWorkOffset.DIRECTION + 2) * STRIDE + i] = z
@@ -196,12 +195,12 @@ def add_links(chain, work):
 
 
 @kernel
-def move_nodes(chain, nodes, motion, gravity, work, dt):
-    """Advance one track by dt with symplectic Euler."""
+def move_nodes(chain, n, nodes, motion, gravity, work, dt):
+    """Advance a track of n nodes by dt with symplectic Euler."""
     r = rotation(motion, chain.hull)
     step = dt / chain.shoe_mass
     fall_x, fall_y, fall_z = dt * gravity[0], dt * gravity[1], dt * gravity[2]
-    for i in range(1, chain.links + 1):
+    for i in range(1, n + 1):
         behind = i - 1
         x = work[NodeWorkOffset.LINK_FORCE * STRIDE + i] - work[NodeWorkOffset.LINK_FORCE * STRIDE + behind]
         y = work[(NodeWorkOffset.LINK_FORCE + 1) * STRIDE + i] - work[(NodeWorkOffset.LINK_FORCE + 1) * STRIDE + behind]

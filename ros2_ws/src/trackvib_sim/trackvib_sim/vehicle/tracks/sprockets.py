@@ -13,15 +13,16 @@ from typing import NamedTuple
 import numpy as np
 
 from ...numerics.compiled import inlined, kernel
-from ..body_tree import SIDES, SPROCKET
+from ..body_tree import SIDES, drive_end, sprocket_name
 from .nodes import STRIDE, NodeWorkOffset
-from .wheels import MOST_MOVES, WheelLoadOffset, add_reaction
+from .wheels import WheelLoadOffset, add_reaction
 
 
 class Sprockets(NamedTuple):
     """Both sprockets."""
 
     row: np.ndarray  # (2,) in the tree
+    end: float  # of the vehicle where they are, sign of x
     teeth: int
     pitch_radius: float  # m
     slope: float  # of the flank, tan
@@ -46,7 +47,8 @@ def build_sprockets(vehicle, rows):
     """Return the record for the vehicle."""
     s, angle = vehicle.sprocket_teeth, radians(vehicle.sprocket_teeth.flank_angle)
     return Sprockets(
-        row=np.array([rows[f"sprocket_{SPROCKET[side]}"] for side in SIDES]),
+        row=np.array([rows[sprocket_name(side)] for side in SIDES]),
+        end=drive_end(vehicle),
         teeth=int(s.teeth),
         pitch_radius=pitch_radius(vehicle),
         slope=np.tan(angle),
@@ -63,27 +65,14 @@ def build_sprockets(vehicle, rows):
 
 
 @kernel
-def find_rear(work, i, n):
-    """Return the rearmost node, beginning from the one that was it last."""
-    for _ in range(MOST_MOVES):
-        if work[i + 1] < work[i]:
-            i = i + 1 if i < n else 1
-        elif work[i - 1] < work[i]:
-            i = i - 1 if i > 1 else n
-        else:
-            break
-    return i
-
-
-@kernel
-def add_sprocket(sprockets, hub, angle, rear, n, work, load):
-    """Add the teeth's forces to the pins around the rearmost node, and their reactions to `load` (wheels.LOAD,).
+def add_sprocket(sprockets, hub, angle, outermost, n, work, load):
+    """Add the teeth's forces to the pins around the outermost node, and their reactions to `load` (wheels.LOAD,).
 
     `angle` [rad] is that of the sprocket in the hull.
     """
     s = sprockets
     share = 2.0 * np.pi / s.teeth
-    i = rear - s.teeth // 2 - 1
+    i = outermost - s.teeth // 2 - 1
     i = i + n if i < 1 else i
     for _ in range(s.teeth + 3):
         dx, dz = work[i] - hub.x, work[2 * STRIDE + i] - hub.z

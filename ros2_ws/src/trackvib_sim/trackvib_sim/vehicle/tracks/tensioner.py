@@ -1,7 +1,8 @@
 """The idlers' tensioners: a slide along the hull's x axis with a preloaded spring and a damper.
 
-The tree's idler turns at a fixed place of the hull; the slide shifts the rim that the track runs on. Its mass, that of
-the idler, counts along its own way only, where it bounds how fast the slide can move.
+Outwards is positive: forwards where the idlers are in front, else rearwards. The tree's idler turns at a fixed place of
+the hull; the slide shifts the rim that the track runs on. Its mass, that of the idler, counts along its own way only,
+where it bounds how fast the slide can move.
 """
 
 from typing import NamedTuple
@@ -12,32 +13,33 @@ from ...numerics.compiled import kernel
 
 
 class Tensioner(NamedTuple):
-    """What both sides have in common."""
+    """Both sides, left first."""
 
     stiffness: float  # N/m
     damping: float  # N s/m
     mass: float  # kg
-    preload: float  # N at travel zero
-    fitted: float  # travel at which the track has its pretension, m
+    preload: np.ndarray  # (2,) N at travel zero
+    fitted: np.ndarray  # (2,) travel at which the track has its pretension, m
 
 
 class TensionerState(NamedTuple):
     """Both slides, left first."""
 
-    travel: np.ndarray  # (2,) forwards, m
+    travel: np.ndarray  # (2,) outwards, m
     rate: np.ndarray  # (2,) m/s
 
 
 def build_tensioner(vehicle, travel, load):
-    """Return the record for the vehicle, in balance at a travel [m] with the track's pull `load` [N] rearwards."""
+    """Return the record for the vehicle, in balance at a travel (2,) [m] with the tracks' pull (2,) [N] inwards."""
     t = vehicle.tensioners
     return Tensioner(t.stiffness, t.damping, vehicle.idlers.mass, load + t.stiffness * travel, travel)
 
 
 @kernel
 def move_tensioner(tensioner, state, side, push, dt):
-    """Advance one slide by dt under the track's `push` [N] on the idler along x (negative: rearwards)."""
-    force = tensioner.preload + push - tensioner.stiffness * state.travel[side] - tensioner.damping * state.rate[side]
+    """Advance one slide by dt under the track's `push` [N] on the idler outwards."""
+    preload, travel, rate = tensioner.preload[side], state.travel[side], state.rate[side]
+    force = preload + push - tensioner.stiffness * travel - tensioner.damping * rate
     state.rate[side] += dt * force / tensioner.mass
     state.travel[side] += dt * state.rate[side]
 
@@ -45,6 +47,6 @@ def move_tensioner(tensioner, state, side, push, dt):
 @kernel
 def tensioner_energy(tensioner, state, side):
     """Return the power turned into heat [W] and the energy stored in spring and moving mass [J]."""
-    travel, rate = state.travel[side], state.rate[side]
-    stored = 0.5 * (tensioner.stiffness * travel * travel + tensioner.mass * rate * rate) - tensioner.preload * travel
+    preload, travel, rate = tensioner.preload[side], state.travel[side], state.rate[side]
+    stored = 0.5 * (tensioner.stiffness * travel * travel + tensioner.mass * rate * rate) - preload * travel
     return tensioner.damping * rate * rate, stored

@@ -9,12 +9,24 @@ from ...numerics.compiled import kernel
 from ...numerics.spatial import rotate
 from ...rui.sweeps.articulated import apply_wrench
 from ...rui.sweeps.kinematics import MotionOffset, motion_vector, rotation
+from ..body_tree import SIDES
 from .ground import Ground, add_ground, build_ground, road_height
 from .layout import fit_idler, idler_load
 from .nodes import STRIDE, Chain, add_links, build_chain, move_nodes, new_node_work, new_nodes, see_from_hull
-from .sprockets import Sprockets, add_sprocket, build_sprockets, find_rear
+from .sprockets import Sprockets, add_sprocket, build_sprockets
 from .tensioner import Tensioner, TensionerState, build_tensioner, move_tensioner, tensioner_energy
-from .wheels import IDLERS, ROAD_WHEELS, WheelLoadOffset, Wheels, add_wheel, build_wheels, find_link, hub_of, push_body
+from .wheels import (
+    END,
+    LOWER_RUN,
+    WheelLoadOffset,
+    Wheels,
+    add_wheel,
+    build_wheels,
+    find_link,
+    find_outermost,
+    hub_of,
+    push_body,
+)
 
 
 class TrackPart(IntEnum):
@@ -28,7 +40,7 @@ class TrackPart(IntEnum):
 
 
 TRACK_PARTS = len(TrackPart)
-MESHED = 0.75  # teeth by which the rearmost pin may be away from its gap; from half a tooth on it is over the next one
+MESHED = 0.75  # teeth by which the outermost pin may be away from its gap; from half a tooth on it is over the next one
 
 
 class Tracks(NamedTuple):
@@ -45,9 +57,9 @@ class TrackState(NamedTuple):
     """Everything that does, left first."""
 
     nodes: np.ndarray  # (2, NODE_STATE STRIDE)
-    link: np.ndarray  # (2, 11) that each wheel touches
-    rear: np.ndarray  # (2,) rearmost node, on the sprocket
-    passed: np.ndarray  # (2,) pins that became the rearmost, from where nothing is `away`
+    link: np.ndarray  # (2, c) that each wheel touches; of an idler the outermost node
+    outermost: np.ndarray  # (2,) node on the sprocket
+    passed: np.ndarray  # (2,) pins that became the outermost, from where nothing is `away`
     tensioner: TensionerState
 
 
@@ -56,11 +68,11 @@ class TrackWork(NamedTuple):
 
     nodes: np.ndarray  # (2, NODE_WORK STRIDE)
     load: np.ndarray  # (LOAD,) of one wheel
-    push: np.ndarray  # (2,) of the track on the idler along the hull's x axis, N
+    push: np.ndarray  # (2,) of the track on the idler outwards, N
     dissipation: np.ndarray  # (TRACK_PARTS,) W
     stored: np.ndarray  # (TRACK_PARTS,) J
     touching: np.ndarray  # (1,) shoes on the ground
-    away: np.ndarray  # (2,) teeth between the rearmost pin and the gap that it belongs to
+    away: np.ndarray  # (2,) teeth between the outermost pin and the gap that it belongs to
 
 
 def build_tracks(vehicle, rows):
@@ -71,13 +83,14 @@ def build_tracks(vehicle, rows):
     layout.TrackDoesNotFit
         The links do not close round the running gear.
     """
-    travel = fit_idler(vehicle)
+    travel = np.array([fit_idler(vehicle, side) for side in SIDES])
+    load = np.array([idler_load(vehicle, side, travel[side]) for side in SIDES])
     return Tracks(
         build_chain(vehicle, rows),
         build_ground(vehicle),
         build_wheels(vehicle, rows),
         build_sprockets(vehicle, rows),
-        build_tensioner(vehicle, travel, idler_load(vehicle, travel)),
+        build_tensioner(vehicle, travel, load),
     )
 
 
@@ -111,8 +124,8 @@ def add_tracks(tracks, state, tree_state, road, motion, cuts, work, dt):
     work.touching[0] = 0.0
     for side in range(2):
         nodes = work.nodes[side]
-        see_from_hull(tracks.chain, state.nodes[side], motion, nodes)
-        dissipation, stored = add_links(tracks.chain, nodes)
+        see_from_hull(tracks.chain, tracks.chain.links[side], state.nodes[side], motion, nodes)
+        dissipation, stored = add_links(tracks.chain, side, nodes)
         work.dissipation[TrackPart.LINKS] += dissipation
         work.stored[TrackPart.LINKS] += stored
         _add_wheels(tracks, state, side, motion, cuts, work)
@@ -122,22 +135,25 @@ def add_tracks(tracks, state, tree_state, road, motion, cuts, work, dt):
 
 @kernel
 def _add_wheels(tracks, state, side, motion, cuts, work):
-    wheels, hull, n, load = tracks.wheels, tracks.chain.hull, tracks.chain.links, work.load
+    wheels, hull, n, load = tracks.wheels, tracks.chain.hull, tracks.chain.links[side], work.load
     for k in range(wheels.row.shape[1]):
         row, run = wheels.row[side, k], wheels.run[side, k]
-        travel, rate = 0.0, 0.0
-        if run == IDLERS:
-            travel, rate = state.tensioner.travel[side], state.tensioner.rate[side]
+        travel, rate, link = 0.0, 0.0, state.link[side, k]
+        if run == END:
+            travel, rate = wheels.end * state.tensioner.travel[side], wheels.end * state.tensioner.rate[side]
         hub = hub_of(motion, hull, row, travel, rate)
-        link = find_link(run, hub.x, work.nodes[side], state.link[side, k], n)
+        if run == END:
+            link = find_outermost(wheels.end, work.nodes[side], link, n)
+        else:
+            link = find_link(run, hub.x, work.nodes[side], link, n)
         state.link[side, k] = link
         load[:] = 0.0
         add_wheel(wheels, side, k, hub, link, n, work.nodes[side], load)
         push_body(cuts, motion, hull, row, load)
         work.dissipation[TrackPart.RIMS] += load[WheelLoadOffset.DISSIPATION]
         work.stored[TrackPart.RIMS] += load[WheelLoadOffset.STORED]
-        if run == IDLERS:
-            work.push[side] = load[WheelLoadOffset.FORCE]
+        if run == END:
+            work.push[side] = wheels.end * load[WheelLoadOffset.FORCE]
             dissipation, stored = tensioner_energy(tracks.tensioner, state.tensioner, side)
             work.dissipation[TrackPart.TENSIONERS] += dissipation
             work.stored[TrackPart.TENSIONERS] += stored
@@ -148,17 +164,17 @@ def _add_wheels(tracks, state, side, motion, cuts, work):
 
 @kernel
 def _add_sprocket(tracks, state, side, tree_state, motion, cuts, work):
-    hull, n, load, row = tracks.chain.hull, tracks.chain.links, work.load, tracks.sprockets.row[side]
-    before = state.rear[side]
-    rear = find_rear(work.nodes[side], before, n)
-    state.rear[side] = rear
+    hull, n, load, row = tracks.chain.hull, tracks.chain.links[side], work.load, tracks.sprockets.row[side]
+    end, before = tracks.sprockets.end, state.outermost[side]
+    outermost = find_outermost(end, work.nodes[side], before, n)
+    state.outermost[side] = outermost
     # steps of a few pins at most, where the numbers begin anew as well
-    state.passed[side] += (rear - before + n + n // 2) % n - n // 2
+    state.passed[side] += (outermost - before + n + n // 2) % n - n // 2
     hub, nodes, angle = hub_of(motion, hull, row, 0.0, 0.0), work.nodes[side], tree_state.hinge[row]
-    behind = np.arctan2(nodes[2 * STRIDE + rear] - hub.z, hub.x - nodes[rear])
-    work.away[side] = (angle - behind) * tracks.sprockets.teeth / (2.0 * np.pi) - state.passed[side]
+    turned = np.arctan2(end * (hub.z - nodes[2 * STRIDE + outermost]), end * (nodes[outermost] - hub.x))
+    work.away[side] = (angle - turned) * tracks.sprockets.teeth / (2.0 * np.pi) - state.passed[side]
     load[:] = 0.0
-    add_sprocket(tracks.sprockets, hub, angle, rear, n, nodes, load)
+    add_sprocket(tracks.sprockets, hub, angle, outermost, n, nodes, load)
     push_body(cuts, motion, hull, row, load)
     work.dissipation[TrackPart.TEETH] += load[WheelLoadOffset.DISSIPATION]
     work.stored[TrackPart.TEETH] += load[WheelLoadOffset.STORED]
@@ -166,9 +182,12 @@ def _add_sprocket(tracks, state, side, tree_state, motion, cuts, work):
 
 @kernel
 def _add_ground(tracks, state, side, road, work, dt):
-    """Only the lower run, from the rearmost node forward to the idler, can touch the ground."""
-    n, height = tracks.chain.links, road.height[side]
-    begin, end = state.rear[side], state.link[side, tracks.wheels.row.shape[1] - 1] + 1
+    """Only the lower run, from the rearmost node to the foremost one, can touch the ground."""
+    n, height = tracks.chain.links[side], road.height[side]
+    begin, last = state.outermost[side], state.link[side, tracks.wheels.row.shape[1] - 1]
+    if tracks.wheels.end < 0.0:
+        begin, last = last, begin
+    end = last + 1
     if begin < end:
         _add_stretch(tracks, state, side, height, road, begin, end, work, dt)
     else:
@@ -191,7 +210,7 @@ def _add_stretch(tracks, state, side, height, road, begin, end, work, dt):
 def move_tracks(tracks, state, motion, gravity, work, dt):
     """Advance nodes and tensioners by dt."""
     for side in range(2):
-        move_nodes(tracks.chain, state.nodes[side], motion, gravity, work.nodes[side], dt)
+        move_nodes(tracks.chain, tracks.chain.links[side], state.nodes[side], motion, gravity, work.nodes[side], dt)
         move_tensioner(tracks.tensioner, state.tensioner, side, work.push[side], dt)
 
 
@@ -200,7 +219,7 @@ def wheel_below_road(tracks, road, motion):
     """Return whether the hub of any road wheel lies below the road, where its links know no way out."""
     for side in range(2):
         for k in range(tracks.wheels.row.shape[1]):
-            if tracks.wheels.run[side, k] == ROAD_WHEELS:
+            if tracks.wheels.run[side, k] == LOWER_RUN:
                 hub = motion_vector(motion, MotionOffset.ORIGIN, tracks.wheels.row[side, k])
                 if hub[2] < road_height(road, side, hub[0]):
                     return True

@@ -15,10 +15,10 @@ from ...numerics.compiled import inlined, kernel
 from ...numerics.spatial import cross, dot, rotate, subtract, vector
 from ...rui.sweeps.articulated import apply_wrench
 from ...rui.sweeps.kinematics import MotionOffset, body_axes, motion_vector, rotation
-from ..body_tree import IDLER, ROLLER, SIDES, STATIONS, wheel_name
+from ..body_tree import SIDES, drive_end, idler_name, roller_name, wheel_name
 from .nodes import STRIDE, NodeWorkOffset
 
-ROAD_WHEELS, ROLLERS, IDLERS = 1.0, -1.0, 0.0  # sign of x along the chain where the wheel touches it; 0: its front end
+LOWER_RUN, UPPER_RUN, END = 1.0, -1.0, 0.0  # sign of x along the chain where the wheel touches it; 0: an idler's end
 CREEP = 0.25  # m/s, slip at which friction has 71 % of its limit; less is stiff against a shoe in steps of 1e-4 s
 MOST_MOVES = (
     4  # links by which a wheel's link may change in one step; wheels that lost the track must not search for ever
@@ -26,10 +26,14 @@ MOST_MOVES = (
 
 
 class Wheels(NamedTuple):
-    """The eleven wheels of each side, (2, 11): road wheels from front to rear, rollers from front to rear, idler."""
+    """Where wheels touch the chain, (2, c) places a side: road wheels, rollers, each from front to rear, and the idler.
 
+    Where there are no rollers the upper run may lie on the road wheels, so that these stand there once more.
+    """
+
+    end: float  # of the vehicle where the idlers are, sign of x
     row: np.ndarray  # in the tree
-    run: np.ndarray  # one of `ROAD_WHEELS`, `ROLLERS`, `IDLERS`
+    run: np.ndarray  # one of `LOWER_RUN`, `UPPER_RUN`, `END`
     window: np.ndarray  # links on either side of the wheel's own that it may touch
     radius: np.ndarray  # of the pin line, m
     stiffness: np.ndarray  # N/m
@@ -77,19 +81,24 @@ class WheelLoadOffset(IntEnum):
 def build_wheels(vehicle, rows):
     """Return the record for the vehicle."""
     v, pitch = vehicle, vehicle.tracks.pitch
-    wheel = [[rows[wheel_name(side, station)] for station in range(STATIONS)] for side in SIDES]
-    roller = [[rows[f"roller_{ROLLER[side] + k}"] for k in range(len(v.carrier_rollers.x))] for side in SIDES]
-    idler = [[rows[f"idler_{IDLER[side]}"]] for side in SIDES]
+    wheel = [[rows[wheel_name(side, station)] for station in range(v.swing_arms.stations)] for side in SIDES]
+    idler = [[rows[idler_name(side)]] for side in SIDES]
+    if v.carrier_rollers:
+        roller = [[rows[roller_name(side, k)] for k in range(len(v.carrier_rollers.x))] for side in SIDES]
+        above = (roller, UPPER_RUN, v.carrier_rollers.radius, v.roller_rims)
+    else:
+        above = (wheel, UPPER_RUN, v.road_wheels.radius, v.tyres)
     kinds = (
-        (wheel, ROAD_WHEELS, v.road_wheels.radius, v.tyres),
-        (roller, ROLLERS, v.carrier_rollers.radius, v.roller_rims),
-        (idler, IDLERS, v.idlers.radius, v.idler_rims),
+        (wheel, LOWER_RUN, v.road_wheels.radius, v.tyres),
+        above,
+        (idler, END, v.idlers.radius, v.idler_rims),
     )
 
     def column(value):
         return np.concatenate([np.full(np.shape(kind[0]), value(*kind[1:])) for kind in kinds], axis=1)
 
     return Wheels(
+        end=-drive_end(v),
         row=np.concatenate([kind[0] for kind in kinds], axis=1),
         run=column(lambda run, radius, rim: run),
         # an idler is wrapped by up to half its circumference
@@ -122,16 +131,24 @@ def hub_of(motion, hull, row, travel, rate):
 
 @kernel
 def find_link(run, x, work, i, n):
-    """Return the link that a wheel at x touches, beginning from the one it touched last."""
+    """Return the link of a run that a wheel at x touches, beginning from the one it touched last."""
     for _ in range(MOST_MOVES):
-        here, there = work[i], work[i + 1]
-        if run == IDLERS:
-            ahead, behind = there > here, work[i - 1] > here
-        else:
-            ahead, behind = run * x >= run * there, run * x < run * here
-        if ahead:
+        if run * x >= run * work[i + 1]:
             i = i + 1 if i < n else 1
-        elif behind:
+        elif run * x < run * work[i]:
+            i = i - 1 if i > 1 else n
+        else:
+            break
+    return i
+
+
+@kernel
+def find_outermost(end, work, i, n):
+    """Return the outermost node at an end of the vehicle (sign of x), beginning from the one that was it last."""
+    for _ in range(MOST_MOVES):
+        if end * work[i + 1] > end * work[i]:
+            i = i + 1 if i < n else 1
+        elif end * work[i - 1] > end * work[i]:
             i = i - 1 if i > 1 else n
         else:
             break

@@ -1,0 +1,110 @@
+"""Parameters of mounts and of the coils in them: kinds of mounts, and where one of each stands."""
+
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from .quantities import choice, scalar, vector
+from .sections import Angles, Gain, Mass, Name, Place, Range, Section, increasing
+
+MOST_COILS = 16
+MOST_MOUNTS = 32
+
+
+class MrMountParameters(Section):
+    """Magnetorheological mounts: measured fits, their valid range, the other axes as ratios to the vertical one."""
+
+    kind: Literal["mr"]
+    stiffness_fit: vector("kN/mm, I in A", 4)
+    damping_ratio_fit: vector("-, I in A", 4)
+    carried_mass: Mass
+    current_range: Range("A")
+    stiffness_ratio: vector("-", 2, ge=0.0)
+    damping_ratio: vector("-", 2, ge=0.0)
+
+    @model_validator(mode="after")
+    def _stiff_over_the_range(self):
+        increasing("current_range", self.current_range)
+        stiffness = np.polyval(self.stiffness_fit, np.linspace(*self.current_range, 201))
+        if stiffness.min() <= 0.0:
+            raise ValueError(
+                f"stiffness_fit falls to {stiffness.min():.3g} kN/mm within current_range, must stay > 0 there"
+            )
+        return self
+
+
+class RubberMountParameters(Section):
+    """Rubber mounts: stiffness by axis, and damping by axis or the loss factor at a frequency."""
+
+    kind: Literal["rubber"]
+    stiffness: vector("N/m", 3, ge=0.0)
+    damping: vector("N s/m", 3, ge=0.0) | None = None
+    loss_factor: scalar("-", ge=0.0, le=2.0) | None = None
+    loss_frequency: scalar("Hz", gt=0.0) | None = None
+
+    @model_validator(mode="after")
+    def _damping_in_one_way(self):
+        loss = self.loss_factor is not None, self.loss_frequency is not None
+        if any(loss) != all(loss) or any(loss) == (self.damping is not None):
+            raise ValueError("needs either damping, or loss_factor and loss_frequency")
+        return self
+
+    @property
+    def damping_by_axis(self):
+        """Damping (3,) [N s/m]; of a loss factor the viscous one that dissipates as much at its frequency."""
+        if self.damping is not None:
+            return np.array(self.damping)
+        return self.loss_factor / (2.0 * np.pi * self.loss_frequency) * np.array(self.stiffness)
+
+
+AnyMountKind = Annotated[MrMountParameters | RubberMountParameters, Field(discriminator="kind")]
+
+
+class MountParameters(Section):
+    """One mount between a body and that body's parent.
+
+    `place` is its upper end in the body, where the lower end is as well when every coordinate is zero. `orientation`
+    turns the mount's axes (roll, pitch, yaw about the fixed axes of the parent). What it carries there: `static_load`
+    along its own z axis, or what its springs give with the unloaded end `unloaded_height` above, or, without either,
+    its share of the body's weight.
+    """
+
+    type: Name
+    body: Name = "powertrain"
+    place: Place
+    orientation: Angles | None = None
+    static_load: Gain("N") | None = None
+    unloaded_height: scalar("m") | None = None
+
+    @model_validator(mode="after")
+    def _one_load(self):
+        if self.static_load is not None and self.unloaded_height is not None:
+            raise ValueError("has both static_load and unloaded_height, must have one of them, or none")
+        return self
+
+
+class CoilParameters(Section):
+    """Driver and coil of an MR mount."""
+
+    model: choice("lag", "current_loop")
+    current_limits: Range("A")
+    slew_rate: Gain("A/s")
+    delay: scalar("s", ge=0.0, le=1.0)
+    time_constant: scalar("s", gt=0.0)
+    loop_time_constant: scalar("s", gt=0.0)
+    voltage_limits: vector("V", 2)
+    resistance: scalar("ohm", gt=0.0)
+    inductance: scalar("H", gt=0.0)
+    eddy_time_constant: Gain("s")
+
+    @model_validator(mode="after")
+    def _voltage_for_every_current(self):
+        increasing("current_limits", self.current_limits)
+        needed = [self.resistance * current for current in self.current_limits]
+        if not (self.voltage_limits[0] <= needed[0] and needed[1] <= self.voltage_limits[1]):
+            raise ValueError(
+                f"voltage_limits are {self.voltage_limits} V, must hold {needed[0]:g} to {needed[1]:g} V, "
+                "resistance times current_limits"
+            )
+        return self

@@ -1,0 +1,214 @@
+"""Mounts between a body and its parent: magnetorheological ones, whose current is set, and rubber ones.
+
+The force law in one place. A mount has three axes of its own. An MR mount has stiffness k(I) and damping
+c(I) = 2 zeta(I) sqrt(k(I) m) along its z axis from the paper's fits, used only inside their valid range, and ratios to
+these along the other two [Tao2025]. A rubber mount has constants. Force and reaction act at the same point (the upper
+end), so that the pair carries no couple; the paper moves the reaction to the lower end instead, which would.
+
+MR mounts come first, in the order of the file, then the rubber ones: coil i is that of mount i.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from ..numerics.compiled import inlined, kernel
+from ..numerics.spatial import load3, rotate, rotate_back, scale, store3, subtract
+from ..rui.sweeps.articulated import apply_force
+from ..rui.sweeps.kinematics import body_axes, point_place, point_velocity, rotation
+from .body_tree import bodies_on_hinges
+from .parameters import POWERTRAIN
+
+KN_PER_MM = 1e6  # N/m
+
+
+class Mounts(NamedTuple):
+    """All mounts, m of them, the first c with coils."""
+
+    coils: int  # c
+    parent: np.ndarray  # (m,) rows in the tree
+    body: np.ndarray  # (m,)
+    upper: np.ndarray  # (m, 3) upper ends in the body, m
+    lower: np.ndarray  # (m, 3) lower ends in the parent, m
+    axes: np.ndarray  # (m, 9) turns the mount's axes into those of the parent
+    load: np.ndarray  # (m, 3) on the body where the ends meet, mount's axes, N
+    excited: np.ndarray  # (m,) 1 for a mount of the powertrain, else 0
+    unloaded: np.ndarray  # (m,) height over there at which the springs are at ease, m
+    stiffness_fit: np.ndarray  # (c, 4) N/m, highest power of I first
+    damping_ratio_fit: np.ndarray  # (c, 4)
+    carried_mass: np.ndarray  # (c,) kg
+    current_range: np.ndarray  # (c, 2) valid range of the fits, A
+    stiffness: np.ndarray  # (m, 3) by axis: ratios to k(I), of rubber N/m
+    damping: np.ndarray  # (m, 3) likewise: ratios to c(I), of rubber N s/m
+
+
+class MountSample(NamedTuple):
+    """State of all mounts at one instant, vectors in their parents' axes; k and c are those of the field."""
+
+    current: np.ndarray  # (c,) in the coil, A
+    stiffness: np.ndarray  # (m,) along z, N/m
+    damping: np.ndarray  # (m,) along z, N s/m
+    deflection: np.ndarray  # (m, 3) m
+    velocity: np.ndarray  # (m, 3) m/s
+    force: np.ndarray  # (m, 3) on the body, N
+    dissipated_power: np.ndarray  # (m,) W
+
+
+def new_mount_sample(mounts):
+    """Return room for the state of all mounts."""
+    c, m = mounts.coils, len(mounts.body)
+    shapes = (c, m, m, (m, 3), (m, 3), (m, 3), m)
+    return MountSample(*(np.zeros(shape) for shape in shapes))
+
+
+def mounts_in_order(vehicle):
+    """Return names and sections of the mounts, those with coils first."""
+    return sorted(vehicle.mounts.items(), key=lambda each: vehicle.mount_types[each[1].type].kind != "mr")
+
+
+def build_mounts(vehicle, rows, loads):
+    """Return the record for the vehicle; `loads` is `mount_loads.loads_at_rest`."""
+    listed = mounts_in_order(vehicle)
+    bodies, names = bodies_on_hinges(vehicle), [name for name, _ in listed]
+    mounts = [mount for _, mount in listed]
+    types = [vehicle.mount_types[mount.type] for mount in mounts]
+    mr = [kind for kind in types if kind.kind == "mr"]
+    places = [(mount.place, bodies[mount.body].place) for mount in mounts]
+    return Mounts(
+        coils=len(mr),
+        parent=np.array([rows[bodies[mount.body].parent] for mount in mounts], dtype=np.int64),
+        body=np.array([rows[mount.body] for mount in mounts], dtype=np.int64),
+        upper=_rows([upper for upper, _ in places], 3),
+        lower=_rows([np.add(upper, origin) for upper, origin in places], 3),
+        axes=_rows([mount_turn(mount).ravel() for mount in mounts], 9),
+        load=_rows([loads[name] for name in names], 3),
+        excited=np.array([float(mount.body == POWERTRAIN) for mount in mounts], dtype=float),
+        unloaded=np.array([mount.unloaded_height or 0.0 for mount in mounts], dtype=float),
+        stiffness_fit=KN_PER_MM * _rows([kind.stiffness_fit for kind in mr], 4),
+        damping_ratio_fit=_rows([kind.damping_ratio_fit for kind in mr], 4),
+        carried_mass=np.array([kind.carried_mass for kind in mr], dtype=float),
+        current_range=_rows([kind.current_range for kind in mr], 2),
+        stiffness=_rows([_by_axis(kind, "stiffness") for kind in types], 3),
+        damping=_rows([_by_axis(kind, "damping") for kind in types], 3),
+    )
+
+
+def mount_turn(mount):
+    """Return the matrix (3, 3) that turns the axes of a mount's section into those of its parent."""
+    return Rotation.from_euler("xyz", mount.orientation or (0.0, 0.0, 0.0), degrees=True).as_matrix()
+
+
+def _by_axis(kind, what):
+    if kind.kind == "mr":
+        return (*getattr(kind, f"{what}_ratio"), 1.0)
+    return kind.stiffness if what == "stiffness" else kind.damping_by_axis
+
+
+def _rows(values, size):
+    return np.array(values, dtype=float).reshape(-1, size)
+
+
+@kernel
+def mount_characteristics(mounts, index, current):
+    """Return k(I) [N/m] and c(I) [N s/m] of one mount, the current [A] clamped to the valid range of the fits.
+
+    Of a rubber mount they are one, for its `stiffness` and `damping` are no ratios.
+    """
+    if index >= mounts.coils:
+        return 1.0, 1.0
+    i = min(max(current, mounts.current_range[index, 0]), mounts.current_range[index, 1])
+    k, zeta = 0.0, 0.0
+    for n in range(4):
+        k = k * i + mounts.stiffness_fit[index, n]
+        zeta = zeta * i + mounts.damping_ratio_fit[index, n]
+    # a fit must never become an energy source
+    return k, 2.0 * max(zeta, 0.0) * np.sqrt(k * mounts.carried_mass[index])
+
+
+@kernel
+def mount_axes(mounts, index, current):
+    """Return stiffness [N/m] and damping [N s/m] of one mount along its own axes."""
+    k, c = mount_characteristics(mounts, index, current)
+    return scale(k, load3(mounts.stiffness, index)), scale(c, load3(mounts.damping, index))
+
+
+@inlined
+def mount_current(mounts, index, currents):
+    """Return the current [A] of one mount, 0 of one without a coil."""
+    return currents[index] if index < mounts.coils else 0.0
+
+
+@kernel
+def mount_deflection(mounts, motion, index, imposed, imposed_rate):
+    """Return upper place (global), deflection l and its rate l_d in the mount's axes [Tao2025, hinge 8].
+
+    `imposed` [m] and `imposed_rate` [m/s] are the displacement along z that the engine imposes across each mount of the
+    powertrain in the paper's way of exciting it; both are zero otherwise.
+    """
+    body, parent, axes = mounts.body[index], mounts.parent[index], _axes(mounts, index)
+    upper = point_place(motion, body, load3(mounts.upper, index))
+    lower = point_place(motion, parent, load3(mounts.lower, index))
+    # l_d = A7^T (v_B - v_26 - Om7 x (r_B - r_26)): the rate against the parent's own point at the same place
+    relative = subtract(point_velocity(motion, body, upper), point_velocity(motion, parent, upper))
+    x, y, z = rotate_back(axes, body_axes(motion, parent, subtract(upper, lower)))
+    v_x, v_y, v_z = rotate_back(axes, body_axes(motion, parent, relative))
+    excited = mounts.excited[index]
+    return upper, (x, y, z - excited * imposed), (v_x, v_y, v_z - excited * imposed_rate)
+
+
+@inlined
+def _axes(mounts, index):
+    a = mounts.axes[index]
+    return (a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8])
+
+
+@kernel
+def mount_force(mounts, index, current, l, l_d):
+    """Return the force on the body in the mount's axes [N] and the power that the damping turns into heat [W]."""
+    k, c = mount_characteristics(mounts, index, current)
+    r_k, r_c, load = mounts.stiffness[index], mounts.damping[index], mounts.load[index]
+    damping = (c * r_c[0] * l_d[0], c * r_c[1] * l_d[1], c * r_c[2] * l_d[2])
+    force = (
+        -k * r_k[0] * l[0] - damping[0] + load[0],
+        -k * r_k[1] * l[1] - damping[1] + load[1],
+        load[2] - k * r_k[2] * (l[2] - mounts.unloaded[index]) - damping[2],
+    )
+    return force, damping[0] * l_d[0] + damping[1] * l_d[1] + damping[2] * l_d[2]
+
+
+@kernel
+def mount_stored_energy(mounts, index, current, l):
+    """Return the energy [J] that one mount stores, its preload included; zero where the springs are at ease."""
+    k, _ = mount_axes(mounts, index, current)
+    load, above = mounts.load[index], l[2] - mounts.unloaded[index]
+    springs = 0.5 * (k[0] * l[0] ** 2 + k[1] * l[1] ** 2 + k[2] * above**2)
+    return springs - load[0] * l[0] - load[1] * l[1] - load[2] * l[2]
+
+
+@kernel
+def add_mounts(mounts, motion, cuts, currents, imposed, imposed_rate):
+    """Add the mounts' forces to bodies and parents; `imposed` as in `mount_deflection`."""
+    for index in range(mounts.body.size):
+        upper, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)
+        force, _ = mount_force(mounts, index, mount_current(mounts, index, currents), l, l_d)
+        force = rotate(rotation(motion, mounts.parent[index]), rotate(_axes(mounts, index), force))
+        apply_force(cuts, motion, mounts.body[index], upper, force)
+        apply_force(cuts, motion, mounts.parent[index], upper, scale(-1.0, force))
+
+
+@kernel
+def observe_mounts(mounts, motion, coils, imposed, imposed_rate, sample):
+    """Fill a `MountSample`, given the `coil.CoilState`."""
+    for index in range(mounts.coils):
+        sample.current[index] = coils.current[index]
+    for index in range(mounts.body.size):
+        current, axes = mount_current(mounts, index, coils.field), _axes(mounts, index)
+        _, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)
+        k, c = mount_axes(mounts, index, current)
+        force, power = mount_force(mounts, index, current, l, l_d)
+        sample.stiffness[index], sample.damping[index] = k[2], c[2]
+        store3(sample.deflection, index, rotate(axes, l))
+        store3(sample.velocity, index, rotate(axes, l_d))
+        store3(sample.force, index, rotate(axes, force))
+        sample.dissipated_power[index] = power
