@@ -33,9 +33,9 @@ def coherence(frequency):
 
 @dataclass(frozen=True)
 class Iso8608Road:
-    """A road of one class without end, level up to `level_until` on both sides of its beginning, then faded in over `fade`.
+    """A road of one class without end, level up to `level_until` from its beginning, then faded in over `fade` [m].
 
-    Both in m.
+    So it is behind the beginning as well.
 
     Sample i lies at distance i * `SPACING`. Harmonics lie one in each of `HARMONICS` logarithmic bands, at a random
     place of it, so that the profile has no period.

@@ -170,8 +170,8 @@ def mount_force(mounts, index, current, l, l_d):
     r_k, r_c, load = mounts.stiffness[index], mounts.damping[index], mounts.load[index]
     damping = (c * r_c[0] * l_d[0], c * r_c[1] * l_d[1], c * r_c[2] * l_d[2])
     force = (
-        -k * r_k[0] * l[0] - damping[0] + load[0],
-        -k * r_k[1] * l[1] - damping[1] + load[1],
+        load[0] - k * r_k[0] * l[0] - damping[0],
+        load[1] - k * r_k[1] * l[1] - damping[1],
         load[2] - k * r_k[2] * (l[2] - mounts.unloaded[index]) - damping[2],
     )
     return force, damping[0] * l_d[0] + damping[1] * l_d[1] + damping[2] * l_d[2]

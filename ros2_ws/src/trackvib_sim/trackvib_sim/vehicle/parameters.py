@@ -164,7 +164,7 @@ class Vehicle(Section):
         rear, front = sorted((self.sprockets.x, self.idlers.x))
         if not rear < arms.places.min() <= arms.places.max() < front:
             raise ValueError(
-                f"sprockets.x is {self.sprockets.x:g} m and idlers.x {self.idlers.x:g} m, the road wheels must lie between "
-                f"them, they are at {arms.places.min():g} to {arms.places.max():g} m"
+                f"sprockets.x is {self.sprockets.x:g} m and idlers.x {self.idlers.x:g} m, the road wheels must lie "
+                f"between them, they are at {arms.places.min():g} to {arms.places.max():g} m"
             )
         return self

@@ -53,7 +53,7 @@ def _touched_points(vehicle, side, travel):
         yield from ((x, z + rollers.radius) for x, z in zip(rollers.x, rollers.z, strict=True))
     else:
         yield from ((x, 2.0 * wheels.radius) for x in v.swing_arms.places[side])
-    yield idlers.x - drive_end(v) * (travel + idlers.radius), idlers.z
+    yield idlers.x + travel - drive_end(v) * idlers.radius, idlers.z
 
 
 def _nearest(place, point):

@@ -1,6 +1,6 @@
 """How a track is laid: taut round wheels, rollers, idler and sprocket, every link at pretension.
 
-Places are those in the hull, x and z, at static ride height. A tensioner's travel is positive outwards.
+Places are those in the hull, x and z, at static ride height. A tensioner's travel is that of the idler along x.
 """
 
 import numpy as np
@@ -26,21 +26,21 @@ def fit_idler(vehicle, side):
     TrackDoesNotFit
         There is no such travel.
     """
-    t, limit = vehicle.tracks, vehicle.tensioners.travel
+    t, limit, outwards = vehicle.tracks, vehicle.tensioners.travel, -drive_end(vehicle)
     links = t.links[side]
 
     def excess(travel):
-        line = _taut_line(vehicle, side, travel)
+        line = _taut_line(vehicle, side, outwards * travel)
         return _walk(vehicle, side, line, 0.0)[-1] - line.arc[-1]
 
-    most, least = excess(-limit), excess(limit)  # room for the links grows with travel
+    most, least = excess(-limit), excess(limit)
     if not least <= 0.0 <= most:
         low, high = sorted((links - value / t.pitch) * t.pitch for value in (most, least))
         raise TrackDoesNotFit(
             f"tracks.links x tracks.pitch is {links * t.pitch:.3f} m on the {SIDE_NAMES[side]}, must be {low:.3f} to "
             f"{high:.3f} m to fit round the running gear within the tensioners.travel of {limit:g} m"
         )
-    return brentq(excess, -limit, limit, xtol=1e-9)
+    return outwards * brentq(excess, -limit, limit, xtol=1e-9)
 
 
 def end_wheels(vehicle):
@@ -50,15 +50,14 @@ def end_wheels(vehicle):
 
 
 def idler_load(vehicle, side, travel):
-    """Return the force [N] with which the pretension of both runs pulls an idler inwards."""
-    line, outwards = _taut_line(vehicle, side, travel), -drive_end(vehicle)
-    hub = (vehicle.idlers.x + outwards * travel, vehicle.idlers.z)
+    """Return the force [N] along x with which the pretension of both runs pulls an idler."""
+    line = _taut_line(vehicle, side, travel)
+    hub = (vehicle.idlers.x + travel, vehicle.idlers.z)
     touching = np.flatnonzero(np.hypot(*(line.corner - hub).T) < _idler_circle(vehicle) + 1e-9)
     tangent = np.diff(line.corner, axis=0)
     tangent /= np.linalg.norm(tangent, axis=1)[:, None]
-    # the line enters the idler outwards and leaves it inwards
-    inwards = tangent[touching[0] - 1, 0] - tangent[touching[-1], 0]
-    return vehicle.tracks.pretension[side] * outwards * inwards
+    # the runs pull along the line: against its way in, and along its way out
+    return vehicle.tracks.pretension[side] * (tangent[touching[-1], 0] - tangent[touching[0] - 1, 0])
 
 
 def end_runs(vehicle, side, travel):
@@ -140,7 +139,7 @@ def _taut_line(vehicle, side, travel):
     circles = [
         *((x, wheels.radius, wheels.radius - given) for x in wheel_x),
         *((x, z, rollers.radius) for x, z in (zip(rollers.x, rollers.z, strict=True) if rollers else ())),
-        (v.idlers.x - drive_end(v) * travel, v.idlers.z, _idler_circle(v)),
+        (v.idlers.x + travel, v.idlers.z, _idler_circle(v)),
         (v.sprockets.x, v.sprockets.z, pitch_radius(v)),
     ]
     angle = 2.0 * np.pi * np.arange(_CORNERS) / _CORNERS

@@ -1,8 +1,7 @@
 """The idlers' tensioners: a slide along the hull's x axis with a preloaded spring and a damper.
 
-Outwards is positive: forwards where the idlers are in front, else rearwards. The tree's idler turns at a fixed place of
-the hull; the slide shifts the rim that the track runs on. Its mass, that of the idler, counts along its own way only,
-where it bounds how fast the slide can move.
+The tree's idler turns at a fixed place of the hull; the slide shifts the rim that the track runs on. Its mass, that of
+the idler, counts along its own way only, where it bounds how fast the slide can move.
 """
 
 from typing import NamedTuple
@@ -25,19 +24,19 @@ class Tensioner(NamedTuple):
 class TensionerState(NamedTuple):
     """Both slides, left first."""
 
-    travel: np.ndarray  # (2,) outwards, m
+    travel: np.ndarray  # (2,) forwards, m
     rate: np.ndarray  # (2,) m/s
 
 
 def build_tensioner(vehicle, travel, load):
-    """Return the record for the vehicle, in balance at a travel (2,) [m] with the tracks' pull (2,) [N] inwards."""
+    """Return the record for the vehicle, in balance at a travel (2,) [m] with the tracks' pull (2,) [N] along x."""
     t = vehicle.tensioners
-    return Tensioner(t.stiffness, t.damping, vehicle.idlers.mass, load + t.stiffness * travel, travel)
+    return Tensioner(t.stiffness, t.damping, vehicle.idlers.mass, t.stiffness * travel - load, travel)
 
 
 @kernel
 def move_tensioner(tensioner, state, side, push, dt):
-    """Advance one slide by dt under the track's `push` [N] on the idler outwards."""
+    """Advance one slide by dt under the track's `push` [N] on the idler along x."""
     preload, travel, rate = tensioner.preload[side], state.travel[side], state.rate[side]
     force = preload + push - tensioner.stiffness * travel - tensioner.damping * rate
     state.rate[side] += dt * force / tensioner.mass

@@ -68,7 +68,7 @@ class TrackWork(NamedTuple):
 
     nodes: np.ndarray  # (2, NODE_WORK STRIDE)
     load: np.ndarray  # (LOAD,) of one wheel
-    push: np.ndarray  # (2,) of the track on the idler outwards, N
+    push: np.ndarray  # (2,) of the track on the idler along the hull's x axis, N
     dissipation: np.ndarray  # (TRACK_PARTS,) W
     stored: np.ndarray  # (TRACK_PARTS,) J
     touching: np.ndarray  # (1,) shoes on the ground
@@ -140,7 +140,7 @@ def _add_wheels(tracks, state, side, motion, cuts, work):
         row, run = wheels.row[side, k], wheels.run[side, k]
         travel, rate, link = 0.0, 0.0, state.link[side, k]
         if run == END:
-            travel, rate = wheels.end * state.tensioner.travel[side], wheels.end * state.tensioner.rate[side]
+            travel, rate = state.tensioner.travel[side], state.tensioner.rate[side]
         hub = hub_of(motion, hull, row, travel, rate)
         if run == END:
             link = find_outermost(wheels.end, work.nodes[side], link, n)
@@ -153,7 +153,7 @@ def _add_wheels(tracks, state, side, motion, cuts, work):
         work.dissipation[TrackPart.RIMS] += load[WheelLoadOffset.DISSIPATION]
         work.stored[TrackPart.RIMS] += load[WheelLoadOffset.STORED]
         if run == END:
-            work.push[side] = wheels.end * load[WheelLoadOffset.FORCE]
+            work.push[side] = load[WheelLoadOffset.FORCE]
             dissipation, stored = tensioner_energy(tracks.tensioner, state.tensioner, side)
             work.dissipation[TrackPart.TENSIONERS] += dissipation
             work.stored[TrackPart.TENSIONERS] += stored
