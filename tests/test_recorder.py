@@ -24,7 +24,7 @@ from trackvib_sim.bags.contents import contents
 from trackvib_sim.bags.repair import repair
 from trackvib_sim.data import find_vehicle
 from trackvib_sim.nodes.messages import ImuMessage, MountMessage
-from trackvib_sim.vehicle.mr_mounts import new_mount_sample
+from trackvib_sim.vehicle.mounts import new_mount_sample
 
 from .bag_helpers import attachment
 

@@ -52,9 +52,12 @@ def rows(table, system):
 
 @pytest.fixture(scope="session")
 def changed(vehicle):
-    """A function that returns the vehicle with some items of one section changed, unchecked."""
+    """A function that returns the vehicle with some items of one section or body changed, unchecked."""
 
     def change(section, **items):
+        if section in vehicle.bodies:
+            bodies = vehicle.bodies | {section: vehicle.bodies[section].model_copy(update=items)}
+            return vehicle.model_copy(update={"bodies": bodies})
         return vehicle.model_copy(update={section: getattr(vehicle, section).model_copy(update=items)})
 
     return change

@@ -61,14 +61,18 @@ def compose(text, name):
     return _bounded(text, name, lambda: yaml.compose(text, _Loader))
 
 
-def validated(model, text, name):
-    """Return what a YAML text describes, by a pydantic model; raises as `load` does, and where an item does not fit."""
+def validated(model, text, name, kinds=None):
+    """Return what a YAML text describes, by a pydantic model; raises as `load` does, and where an item does not fit.
+
+    Where a section is of one of several kinds, pydantic puts the kind's word among the names that lead to an item;
+    `kinds` says at which place of those that begin with a section.
+    """
     try:
         return model.model_validate(load(text, name))
     except ValidationError as error:
         errors = error.errors(include_url=False, include_context=False)
     more = [f"{name}: and {len(errors) - _MOST_ERRORS} more items"] if len(errors) > _MOST_ERRORS else []
-    raise YamlTextError("\n".join(map(readable, [_sentence(name, each) for each in errors[:_MOST_ERRORS]] + more)))
+    raise YamlTextError("\n".join(map(readable, [_sentence(name, each, kinds or {}) for each in errors[:_MOST_ERRORS]] + more)))
 
 
 def _bounded(text, name, read):
@@ -82,8 +86,10 @@ def _bounded(text, name, read):
         raise YamlTextError(readable(f"{name}: not a YAML file: {reason}")) from None
 
 
-def _sentence(name, error):
-    item, value = shortened(".".join(map(str, error["loc"]))), shortened(repr(error["input"]))
+def _sentence(name, error, kinds):
+    loc = error["loc"]
+    places = [str(part) for place, part in enumerate(loc) if place != kinds.get(loc[0])]
+    item, value = shortened(".".join(places)), shortened(repr(error["input"]))
     reason = shortened(error["msg"].removeprefix("Value error, "), _LONGEST_REASON)
     if error["type"] in ("model_type", "model_attributes_type"):
         return f"{name}: {item or 'the whole file'} is {value}: must be a section with items"

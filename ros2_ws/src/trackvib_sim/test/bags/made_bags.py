@@ -9,7 +9,7 @@ from trackvib_msgs.msg import CoilCurrent
 from trackvib_sim.bags.writing import BagWriter
 from trackvib_sim.nodes.messages import ImuMessage, MountMessage, set_stamp, set_vector
 from trackvib_sim.numerics.units import NANO
-from trackvib_sim.vehicle.mr_mounts import new_mount_sample
+from trackvib_sim.vehicle.mounts import new_mount_sample
 
 PERIOD = NANO // 1000
 PERIODS = 2500  # of the shared bag: three chunks

@@ -7,7 +7,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import Imu
 from trackvib_msgs.msg import MountState
 from trackvib_sim.nodes.messages import ImuMessage, MountMessage, set_stamp, set_vector
-from trackvib_sim.vehicle.mr_mounts import new_mount_sample
+from trackvib_sim.vehicle.mounts import new_mount_sample
 
 STAMPS = st.integers(0, 2**31 * 10**9 - 1)
 SEEDS = st.integers(0, 2**32 - 1)

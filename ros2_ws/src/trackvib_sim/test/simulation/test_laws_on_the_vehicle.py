@@ -9,7 +9,7 @@ from mr_mount_controller.laws.engine_speed import ORDERS, SPEEDS, EngineSpeedEst
 from mr_mount_controller.laws.passive import Passive
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.closed_loop import run_closed_loop
-from trackvib_sim.vehicle.mr_mounts import mount_characteristics
+from trackvib_sim.vehicle.mounts import mount_characteristics
 
 PERIOD = 1e-3
 
@@ -24,10 +24,10 @@ def rough():
 def test_controller_knows_the_mounts(vehicle, system):
     """Its k(I) and c(I) are the simulator's at every current, those out of range included, to rounding."""
     for current in np.linspace(0.0, 5.0, 101):
-        k, c = mount_characteristics(system.mounts, float(current))
+        k, c = mount_characteristics(system.mounts, 0, float(current))
         assert mount.stiffness(current) == pytest.approx(k, rel=1e-12)
         assert mount.damping(current) == pytest.approx(c, rel=1e-12)
-    assert tuple(vehicle.mr_mounts.current_range) == (mount.LOWEST_CURRENT, mount.HIGHEST_CURRENT)
+    assert tuple(vehicle.mount_types["mr"].current_range) == (mount.LOWEST_CURRENT, mount.HIGHEST_CURRENT)
     assert vehicle.coil.time_constant == mount.COIL_LAG
 
 
@@ -37,16 +37,16 @@ def test_controller_knows_the_powertrain(vehicle):
     v, p, model = vehicle, vehicle.powertrain, two_mount_model
     arms, shocks = v.swing_arms, v.shock_absorbers
     for known, true in (
-        (model.HULL_MASS, v.hull.mass + v.turret.mass + v.gun_mount.mass + v.recoil_part.mass),
-        (model.SUSPENSION_STIFFNESS, 12.0 * arms.wheel_rate),
-        (model.SUSPENSION_DAMPING, 12.0 * arms.friction + 2.0 * len(shocks.stations) * shocks.damping),
+        (model.HULL_MASS, v.hull.mass + sum(body.mass for body in v.bodies.values())),
+        (model.SUSPENSION_STIFFNESS, 12.0 * arms.wheel_rate[0]),
+        (model.SUSPENSION_DAMPING, 12.0 * arms.friction[0] + 2.0 * sum(shocks.damping)),
         (model.POWERTRAIN_MASS, p.mass),
         (model.POWERTRAIN_INERTIA, p.inertia[1]),
         (model.HINGE_STIFFNESS, p.stiffness),
     ):
         assert known == pytest.approx(true, rel=0.02)
     assert (p.centre[0], p.centre[2]) == pytest.approx(model.CENTRE, abs=5e-3)
-    assert (v.mr_mounts.place[0], v.mr_mounts.place[2]) == pytest.approx(model.MOUNTS, abs=5e-3)
+    assert (v.mounts["left"].place[0], v.mounts["left"].place[2]) == pytest.approx(model.MOUNTS, abs=5e-3)
     assert set(ORDERS) == set(v.engine.orders)
     assert SPEEDS[0] < v.engine.speed_range[0] and SPEEDS[-1] > v.engine.speed_range[1]
 

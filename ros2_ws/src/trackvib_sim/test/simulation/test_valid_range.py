@@ -11,7 +11,7 @@ from trackvib_sim.simulation.step import LONGEST_FLIGHT
 from trackvib_sim.vehicle.system import Operation
 from trackvib_sim.vehicle.tracks.layout import sink
 from trackvib_sim.vehicle.tracks.nodes import STRIDE, NodeOffset
-from trackvib_sim.vehicle.tracks.wheels import ROAD_WHEELS
+from trackvib_sim.vehicle.tracks.wheels import LOWER_RUN
 
 pytestmark = pytest.mark.property
 
@@ -113,7 +113,7 @@ def test_road_wheels_are_already_turning(simulation, vehicle, level, speed, driv
     To 3 %, by which one turns slower that carries nothing.
     """
     moving, rate = simulation(speed), []
-    road_wheels = moving.system.tracks.wheels.row[moving.system.tracks.wheels.run == ROAD_WHEELS]
+    road_wheels = moving.system.tracks.wheels.row[moving.system.tracks.wheels.run == LOWER_RUN]
     for each in drive(moving, level, 400):
         rate.append(each.state.tree.hinge_rate[road_wheels])
     loaded = vehicle.road_wheels.radius - sink(vehicle)
@@ -125,7 +125,7 @@ def test_road_is_asked_for_as_far_as_a_slow_loop_goes(vehicle, level):
     settings = RunSettings(Operation(25.0, 0.0, False), Rates(control=10, odometry=10), 1.0)
     moving = Simulation(vehicle, settings)
     moving.road.add(-20.0, 0.05, *level.heights(-400, 600))  # up to 9.95 m
-    front = max(vehicle.idlers.x) + vehicle.tensioners.travel + vehicle.idlers.radius
+    front = vehicle.idlers.x + vehicle.tensioners.travel + vehicle.idlers.radius
     while moving.road_is_enough():
         moving.advance(np.ones(2))
         assert moving.distance + front < 9.95

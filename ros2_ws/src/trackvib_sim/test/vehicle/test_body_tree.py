@@ -10,7 +10,7 @@ from trackvib_sim.rui.sweeps.cells import columns
 from trackvib_sim.rui.sweeps.kinematics import MotionOffset
 from trackvib_sim.rui.sweeps.tree import build_tree, rest_lanes
 from trackvib_sim.rui.table import Hinge, check_table
-from trackvib_sim.vehicle.body_tree import SIDES, STATIONS, build_body_table, wheel_name
+from trackvib_sim.vehicle.body_tree import SIDES, build_body_table, wheel_name
 
 # [Tao2025], numbering of the body subsystem: hinge -> (body towards the hull, body behind)
 PAPER = {2: (3, 1), 4: (5, 3), 6: (7, 5), 8: (7, 9)}
@@ -57,7 +57,7 @@ def test_free_ends_are_those_of_the_paper(table):
 def test_total_mass_is_the_sum_of_the_file(vehicle, table):
     """Every mass of the vehicle file is in the tree as often as the vehicle has the part."""
     v = vehicle
-    single = v.hull.mass + v.turret.mass + v.gun_mount.mass + v.recoil_part.mass + v.powertrain.mass
+    single = v.hull.mass + sum(body.mass for body in v.bodies.values()) + v.powertrain.mass
     side = 6 * (v.swing_arms.mass + v.road_wheels.mass) + v.sprockets.mass + 4 * v.carrier_rollers.mass + v.idlers.mass
     assert sum(body.mass for body in table) == pytest.approx(single + 2 * side, rel=1e-14)
 
@@ -66,7 +66,7 @@ def test_total_mass_is_the_sum_of_the_file(vehicle, table):
 def test_wheels_stand_where_the_file_says(vehicle, rows, origins):
     """At zero coordinates each wheel stands at its wheel_x and +-y, its centre one radius above the ground."""
     for side, sign in SIDES.items():
-        for station in range(STATIONS):
+        for station in range(vehicle.swing_arms.stations):
             expected = vehicle.swing_arms.wheel_x[station], sign * vehicle.road_wheels.y, vehicle.road_wheels.radius
             assert_allclose(origins[rows[wheel_name(side, station)]], expected, atol=1e-14)
 

@@ -24,7 +24,7 @@ def driven(changed):
 
     def drive(demands, start, hold=1, dt=DT, **items):
         record = build_coil(changed("coil", **items), dt)
-        state = new_coil_state(record)
+        state = new_coil_state(record, 2)
         settle_coils(record, state, start)
         rows = []
         for demand in np.repeat(np.array(demands), hold, axis=0):

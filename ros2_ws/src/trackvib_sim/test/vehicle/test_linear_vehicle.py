@@ -10,7 +10,7 @@ from trackvib_sim.rui.sweeps.tree import new_rows, rest_lanes
 from trackvib_sim.vehicle.equilibrium import static_equilibrium
 from trackvib_sim.vehicle.hinge_springs import add_hinge_springs
 from trackvib_sim.vehicle.linear_vehicle import build_linear_vehicle
-from trackvib_sim.vehicle.mr_mounts import add_mounts
+from trackvib_sim.vehicle.mounts import add_mounts
 from trackvib_sim.vehicle.supports import add_supports
 from trackvib_sim.vehicle.suspension import add_suspension
 from trackvib_sim.vehicle.system import Operation, build_system

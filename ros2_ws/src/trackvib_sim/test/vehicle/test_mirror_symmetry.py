@@ -25,13 +25,11 @@ class Mirrored:
 
 
 @pytest.fixture(scope="module")
-def partner(table, rows):
+def partner(rows):
     """Row of each row's body on the other side of the vehicle; bodies in the middle are their own."""
-    by_number = {body.number: rows[body.name] for body in table}
     swap = np.arange(max(rows.values()) + 1)
-    for left in (*range(34, 40), *range(58, 70)):
-        right = left + (6 if left < 46 else 12)
-        swap[[by_number[left], by_number[right]]] = by_number[right], by_number[left]
+    for left, right in ((name, name.replace("left", "right")) for name in rows if name.startswith("left_")):
+        swap[[rows[left], rows[right]]] = rows[right], rows[left]
     return swap
 
 
@@ -48,7 +46,7 @@ def mirror(state, partner, turret):
     sign = np.ones((NodeOffset.SIZE, 1))
     sign[list(LATERAL)] = -1
     tracks.nodes[:] = (tracks.nodes.reshape(2, NodeOffset.SIZE, STRIDE)[::-1] * sign).reshape(tracks.nodes.shape)
-    for values in (tracks.link, tracks.rear, tracks.passed, *tracks.tensioner, *state.coils):
+    for values in (tracks.link, tracks.outermost, tracks.passed, *tracks.tensioner, *state.coils):
         values[:] = values[::-1].copy()
 
 

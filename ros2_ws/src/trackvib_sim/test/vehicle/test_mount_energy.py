@@ -16,7 +16,7 @@ from trackvib_sim.vehicle.mount_energy import (
     start_mount_energy,
     update_mount_energy,
 )
-from trackvib_sim.vehicle.mr_mounts import mount_characteristics
+from trackvib_sim.vehicle.mounts import mount_characteristics
 
 DT = 1e-4  # s
 CLOSED = 1e-3  # largest residual, of the greatest part
@@ -34,8 +34,8 @@ def swung(system, moved):
     def swing(currents):
         state, audit, body, w = (
             rest_lanes(system.tree),
-            new_mount_energy_state(),
-            system.mounts.powertrain,
+            new_mount_energy_state(2),
+            system.mounts.body[0],
             2.0 * np.pi * FREQUENCY,
         )
         for step, current in enumerate(currents):
@@ -54,7 +54,7 @@ def swung(system, moved):
 def arms(system):
     """Sum over both mounts of the squared arms about the hinge, weighted as stiffness and as damping are [m^2]."""
     x, _, z = system.mounts.upper[0]
-    return [2.0 * (x * x + ratio[0] * z * z) for ratio in (system.mounts.stiffness_ratio, system.mounts.damping_ratio)]
+    return [2.0 * (x * x + ratio[0] * z * z) for ratio in (system.mounts.stiffness[0], system.mounts.damping[0])]
 
 
 @pytest.mark.analytic
@@ -62,7 +62,7 @@ def arms(system):
 def test_a_harmonic_cycle_takes_pi_c_w_a_squared(system, swung, arms, current):
     """Under constant current the work of whole cycles is all heat, to the change of the arms with the angle."""
     *_, found = swung([current] * (4 * CYCLE + 1))
-    _, c = mount_characteristics(system.mounts, current)
+    _, c = mount_characteristics(system.mounts, 0, current)
     expected = 4.0 * np.pi * c * arms[1] * 2.0 * np.pi * FREQUENCY * AMPLITUDE**2
     assert found.dissipated == pytest.approx(expected, rel=1e-3)
     assert found.work == pytest.approx(expected, rel=1e-3)
@@ -79,7 +79,7 @@ def test_switching_at_the_greatest_deflection_gives_the_springs_energy_away(syst
     soft, firm = 0.8, 3.0
     quarter = np.repeat([soft, firm, soft, firm], CYCLE // 4)
     *_, found = swung(np.concatenate((quarter, quarter, [soft] * 2)))
-    k = [mount_characteristics(system.mounts, current)[0] for current in (soft, firm)]
+    k = [mount_characteristics(system.mounts, 0, current)[0] for current in (soft, firm)]
     given = 4.0 * 0.5 * (k[1] - k[0]) * arms[0] * AMPLITUDE**2
     assert found.exchanged == pytest.approx(given, rel=0.02)
     assert found.error < CLOSED

@@ -33,7 +33,7 @@ def standing_loads(stood, moved, added):
     add_tracks(system.tracks, state.tracks, state.tree, road, moved(system.tree, state.tree), cuts, work, 0.0)
 
     def vectors(cells, first):
-        by_quantity = cells.reshape(2, -1, STRIDE)[:, first : first + 3, 1 : system.tracks.chain.links + 1]
+        by_quantity = cells.reshape(2, -1, STRIDE)[:, first : first + 3, 1 : system.tracks.chain.links[0] + 1]
         return np.moveaxis(by_quantity, 1, 2)
 
     return vectors(work.nodes, NodeWorkOffset.GROUND), vectors(state.tracks.nodes, NodeOffset.PLACE), added(cuts)
@@ -44,7 +44,7 @@ def test_ground_carries_the_weight_of_all(vehicle, table, standing_loads):
     """The ground's forces on the shoes push, balance, and add up to the weight of bodies and shoes, left as right."""
     ground, _, _ = standing_loads
     t = vehicle.tracks
-    weight = (sum(body.mass for body in table) + 2.0 * t.links * t.shoe_mass) * GRAVITY
+    weight = (sum(body.mass for body in table) + sum(t.links) * t.shoe_mass) * GRAVITY
     assert ground[..., 2].min() == 0.0
     assert ground[..., 2].sum() == pytest.approx(weight, rel=1e-3)
     assert_allclose(ground[0, :, 2].sum(), ground[1, :, 2].sum(), rtol=1e-3)

@@ -1,5 +1,7 @@
 """The vehicle file: the shipped one loads, and what is wrong in another is said in words."""
 
+from contextlib import suppress
+
 import numpy as np
 import pytest
 import yaml
@@ -26,10 +28,23 @@ def test_shipped_file_loads(content):
     """The shipped file is accepted, comes back with its text, and its values are those written in it."""
     vehicle, text = read_vehicle(find_vehicle())
     assert text == content
-    for section, items in yaml.safe_load(content).items():
-        for name, quantity in items.items():
-            value, written = getattr(getattr(vehicle, section), name), quantity["value"]
-            assert value == written or np.array_equal(value, np.array(written, dtype=float))
+    assert len(list(_quantities(yaml.safe_load(content), vehicle))) > 100
+    for value, written in _quantities(yaml.safe_load(content), vehicle):
+        with suppress(ValueError):  # YAML takes 4.0e7 for a text, and some values are words
+            written = np.array(written, dtype=float)
+        assert np.array_equal(value, np.broadcast_to(written, np.shape(value)))
+
+
+def _quantities(items, section):
+    """Yield the value in a section of the vehicle and that which is written, for all quantities of a file."""
+    for name, written in items.items():
+        value = section[name] if isinstance(section, dict) else getattr(section, name)
+        if not isinstance(written, dict):
+            yield value, written
+        elif "value" in written:
+            yield value, written["value"]
+        else:
+            yield from _quantities(written, value)
 
 
 @pytest.mark.property
@@ -48,36 +63,36 @@ def test_texts_that_would_blow_up_are_refused(text, words):
 @pytest.mark.literature
 def test_published_values_are_the_papers(vehicle):
     """The fits, the rated load, the engine's speeds and its displacement are those printed in the paper."""
-    m, e = vehicle.mr_mounts, vehicle.engine
+    m, e = vehicle.mount_types["mr"], vehicle.engine
     assert m.stiffness_fit == [0.0412, -0.581, 2.8317, 0.904]
     assert m.damping_ratio_fit == [0.0121, -0.1567, 0.6526, -0.3573]
-    assert (m.static_load, m.carried_mass) == (9800.0, 1000.0)
+    assert m.carried_mass == 1000.0 and {mount.static_load for mount in vehicle.mounts.values()} == {9800.0}
     assert (e.rated_speed, e.speed_range, e.imposed_amplitude) == (1650.0, [450.0, 2100.0], 2e-4)
 
 
 MASS = "mass: {value: 9000.0, unit: kg, source: assumed}"
 BAD = [
-    (MASS, "", ("turret.mass", "required")),
-    (MASS, MASS + "\n  colour: {value: 1.0, unit: m, source: assumed}", ("turret.colour", "1.0", "not permitted")),
-    (MASS, MASS.replace("kg", "t"), ("turret.mass", "unit is 't'", "must be 'kg'")),
-    (MASS, MASS.replace("assumed", "guessed"), ("turret.mass", "source is 'guessed'", ", ".join(SOURCES))),
-    (MASS, MASS.replace("9000.0", "-1.0"), ("turret.mass is -1.0", "greater than 0")),
-    (MASS, MASS.replace("9000.0", "0.0"), ("turret.mass is 0.0", "greater than 0")),
-    (MASS, MASS.replace("9000.0", ".nan"), ("turret.mass is nan", "finite")),
-    (MASS, MASS.replace("9000.0", ".inf"), ("turret.mass is inf", "finite")),
-    (MASS, MASS.replace("9000.0", "1e+300"), ("turret.mass", "value is 1e+300", "-1e+12 to 1e+12 kg")),
-    ("centre: {value: [-0.15, 0.0, 0.35]", "centre: {value: [0, 2000.0, 0]", ("turret.centre", "2000", "1000 m")),
-    (MASS, MASS.replace("9000.0", "heavy"), ("turret.mass is 'heavy'", "number")),
-    (MASS, MASS.replace("9000.0", "true"), ("turret.mass", "value is True", "must be a number")),
-    (MASS, MASS.replace("9000.0", "[1.0]"), ("turret.mass is [1.0]", "number")),
-    (MASS, "mass: 9000.0", ("turret.mass", "must be written {value: ..., unit: kg, source: ...}")),
-    (MASS, MASS.replace("source", "origin"), ("turret.mass", "must be written", "source: ...")),
-    (MASS, MASS.replace("}", ", error: 5.0}"), ("turret.mass", "must be written", "a note may follow")),
-    ("centre: {value: [-0.15, 0.0, 0.35]", "centre: {value: [-0.15, 0.35]", ("turret.centre", "at least 3")),
-    ("centre: {value: [-0.15, 0.0, 0.35]", "centre: {value: [0, .nan, 0]", ("turret.centre.1 is nan", "finite")),
+    (MASS, "", ("bodies.turret.mass", "required")),
+    (MASS, MASS + "\n    colour: {value: 1.0, unit: m, source: assumed}", ("bodies.turret.colour", "1.0", "not permitted")),
+    (MASS, MASS.replace("kg", "t"), ("bodies.turret.mass", "unit is 't'", "must be 'kg'")),
+    (MASS, MASS.replace("assumed", "guessed"), ("bodies.turret.mass", "source is 'guessed'", ", ".join(SOURCES))),
+    (MASS, MASS.replace("9000.0", "-1.0"), ("bodies.turret.mass is -1.0", "greater than 0")),
+    (MASS, MASS.replace("9000.0", "0.0"), ("bodies.turret.mass is 0.0", "greater than 0")),
+    (MASS, MASS.replace("9000.0", ".nan"), ("bodies.turret.mass is nan", "finite")),
+    (MASS, MASS.replace("9000.0", ".inf"), ("bodies.turret.mass is inf", "finite")),
+    (MASS, MASS.replace("9000.0", "1e+300"), ("bodies.turret.mass", "value is 1e+300", "-1e+12 to 1e+12 kg")),
+    ("centre: {value: [-0.15, 0.0, 0.35]", "centre: {value: [0, 2000.0, 0]", ("bodies.turret.centre", "2000", "1000 m")),
+    (MASS, MASS.replace("9000.0", "heavy"), ("bodies.turret.mass is 'heavy'", "number")),
+    (MASS, MASS.replace("9000.0", "true"), ("bodies.turret.mass", "value is True", "must be a number")),
+    (MASS, MASS.replace("9000.0", "[1.0]"), ("bodies.turret.mass is [1.0]", "number")),
+    (MASS, "mass: 9000.0", ("bodies.turret.mass", "must be written {value: ..., unit: kg, source: ...}")),
+    (MASS, MASS.replace("source", "origin"), ("bodies.turret.mass", "must be written", "source: ...")),
+    (MASS, MASS.replace("}", ", error: 5.0}"), ("bodies.turret.mass", "must be written", "a note may follow")),
+    ("centre: {value: [-0.15, 0.0, 0.35]", "centre: {value: [-0.15, 0.35]", ("bodies.turret.centre", "at least 3")),
+    ("centre: {value: [-0.15, 0.0, 0.35]", "centre: {value: [0, .nan, 0]", ("bodies.turret.centre.1 is nan", "finite")),
     ("orders: {value: [2.0, 3.0, 6.0]", "orders: {value: [2.0, 3.0]", ("engine", "force has 3 rows", "each order")),
     ("current_range: {value: [0.7, 4.0]", "current_range: {value: [4.0, 0.7]",
-     ("mr_mounts.current_range", "[4.0, 0.7]", "first must be below")),
+     ("mount_types.mr", "current_range is [4, 0.7]", "first must be below")),
     ("current_limits: {value: [0.0, 5.0]", "current_limits: {value: [-1.0, 5.0]",
      ("coil.current_limits.0 is -1.0", "greater than or equal to 0")),
     ("model: {value: lag", "model: {value: fast", ("coil.model is 'fast'", "'lag' or 'current_loop'")),
@@ -85,12 +100,21 @@ BAD = [
      ("coil: voltage_limits are [-24.0, 6.0] V", "must hold 0 to 10 V")),
     ("bump_travel: {value: 0.26", "bump_travel: {value: 0.5",
      ("swing_arms", "bump_travel is 0.5 m", "must be < 0.427")),
-    ("stations: {value: [1, 2, 6]", "stations: {value: [0, 2, 6]", ("shock_absorbers.stations.0", "equal to 1")),
-    ("stations: {value: [1, 2, 6]", "stations: {value: [1.5, 2, 6]", ("stations is [1.5", "whole numbers")),
-    ("links: {value: 120,", "links: {value: 120.5,", ("tracks.links is 120.5", "multiple of 1")),
-    ("links: {value: 120,", "links: {value: 500,", ("tracks.links is 500", "less than or equal to 198")),
+    ("damping: {value: [5.0e4, 5.0e4, 0, 0, 0, 5.0e4]", "damping: {value: [5.0e4, -1.0]",
+     ("shock_absorbers.damping.1 is -1.0", "equal to 0")),
+    ("damping: {value: [5.0e4, 5.0e4, 0, 0, 0, 5.0e4]", "damping: {value: [5.0e4, 0]",
+     ("shock_absorbers.damping has 2 values", "one for each of 6 stations")),
+    ("wheel_x: {value: [2.10, 1.28,", "wheel_x: {value: [2.10, 2.28,", ("swing_arms", "6 places, each behind the last")),
+    ("links: {value: 120,", "links: {value: 120.5,", ("tracks.links.0 is 120.5", "multiple of 1")),
+    ("links: {value: 120,", "links: {value: 500,", ("tracks.links.0 is 500", "less than or equal to 250")),
     ("teeth: {value: 14,", "teeth: {value: 3,", ("sprocket_teeth.teeth is 3", "greater than or equal to 6")),
-    ("x: {value: [-3.05]", "x: {value: [-3.05, 1.0]", ("sprockets", "2 places and z 1", "as many")),
+    ("x: {value: [1.95, 0.65, -0.65, -1.95]", "x: {value: [1.95, 0.65]", ("carrier_rollers", "2 places and z 4")),
+    ("x: {value: -3.05", "x: {value: -2.0", ("sprockets.x is -2 m", "road wheels must lie between them")),
+    ("parent: gun_mount", "parent: cupola", ("bodies.recoil_part: parent is 'cupola'", "hull, turret, gun_mount")),
+    ("hinge: prismatic", "hinge: sliding", ("bodies.recoil_part", "'sliding'", "'prismatic'")),
+    ("kind: mr", "kind: steel", ("mount_types.mr", "'steel'", "'mr', 'rubber'")),
+    ("  left:\n    type: mr", "  left:\n    type: firm", ("mounts.left: type is 'firm'", "must be one of mr")),
+    ("format: 2", "format: 3", ("format is 3", "should be 2")),
 ]  # fmt: skip
 
 
@@ -112,14 +136,6 @@ def test_every_bad_item_is_named(content):
     lines = refusal(text).splitlines()
     assert len(lines) == 2
     assert "turret.mass" in lines[0] and "engine.orders" in lines[1]
-
-
-@pytest.mark.property
-def test_counts_of_the_paper_are_kept(content):
-    """A vehicle with five carrier rollers a side is not the paper's and is refused."""
-    text = content.replace("[1.95, 0.65, -0.65, -1.95]", "[1.95, 0.65, 0.0, -0.65, -1.95]")
-    text = text.replace("[0.915, 0.925, 0.925, 0.915]", "[0.915, 0.925, 0.925, 0.925, 0.915]")
-    assert "carrier_rollers: 5 places a side, must be 4" in refusal(text)
 
 
 @pytest.mark.property

@@ -9,6 +9,7 @@ from ..console import Terminal
 from ..data import find_vehicle
 from ..drawings.mode_pictures import mode_pictures
 from ..rui.linear.modes import describe, modes
+from ..vehicle.coil import usable_current
 from ..vehicle.linear_vehicle import build_linear_vehicle
 from ..vehicle.system import Operation, build_system
 from ..vehicle.vehicle_file import read_vehicle
@@ -23,7 +24,7 @@ def run_modes(current, highest, picture):
     if not Path(picture).absolute().parent.is_dir():
         raise ValueError(f"picture {picture}: its folder must exist")
     vehicle, _ = read_vehicle(find_vehicle())
-    low, high = vehicle.mr_mounts.current_range
+    low, high = usable_current(vehicle)
     if not low <= current <= high:
         raise ValueError(
             f"current is {current:g} A, must be within the valid range of the mounts, {low:g} to {high:g} A"

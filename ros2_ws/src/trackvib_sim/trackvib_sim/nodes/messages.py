@@ -68,7 +68,7 @@ class MountMessage:
         self._packed = PackedMessage(message, fields | dict.fromkeys(("deflection", "velocity", "force"), 6))
 
     def fill(self, stamp, sample):
-        """Return the message's bytes for a `vehicle.mr_mounts.MountSample`."""
+        """Return the message's bytes for a `vehicle.mounts.MountSample`."""
         return self._packed.fill(stamp, **sample._asdict())
 
 

@@ -12,6 +12,8 @@ from ..simulation.open_loop import run_open_loop
 from ..simulation.run_in import CannotRoll
 from ..simulation.settings import Rates, RunSettings
 from ..simulation.simulation import Probe, RunFailed, Simulation
+from ..vehicle.parameters import POWERTRAIN
+from ..vehicle.sensors import sensors_of
 from ..vehicle.system import Operation
 
 # [Tao2025]: the engine at its maximum; its second order, 70 Hz, moves the mounts by 0.2 mm
@@ -60,11 +62,12 @@ def probes(vehicle):
     mounts [Tao2025]. The third is the hull's own point at the latter place: what a rigid mount would give there.
     """
     rear = vehicle.powertrain.place
-    x, _, z = vehicle.mr_mounts.place
+    sensor = next(each for each in sensors_of(vehicle) if each.name == POWERTRAIN)
+    x, y, z = sensor.place
     return (
         Probe("hull", rear),
-        Probe("powertrain", (x, 0.0, z)),
-        Probe("hull", (rear[0] + x, rear[1], rear[2] + z)),
+        Probe("powertrain", (x, y, z)),
+        Probe("hull", (rear[0] + x, rear[1] + y, rear[2] + z)),
     )
 
 

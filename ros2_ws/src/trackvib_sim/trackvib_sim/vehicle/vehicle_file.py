@@ -5,6 +5,9 @@ from pathlib import Path
 from ..yaml_text import YamlTextError, read_text, validated
 from .parameters import Vehicle
 
+# where pydantic puts the word for a body's hinge or a mount's kind among the names of its items
+_KINDS = {"bodies": 2, "powertrain": 1, "mount_types": 2}
+
 
 class VehicleFileError(ValueError):
     """A vehicle file that cannot be used; the message names file, item, value and what is accepted.
@@ -27,7 +30,7 @@ def parse_vehicle(text: str, name: str) -> Vehicle:
         The text is not YAML, or an item is missing, unknown, in the wrong unit or out of range.
     """
     try:
-        return validated(Vehicle, text, name)
+        return validated(Vehicle, text, name, _KINDS)
     except YamlTextError as error:
         raise VehicleFileError(str(error)) from None
 

@@ -6,6 +6,8 @@ from trackvib_sim.road.store import Road
 from trackvib_sim.simulation.step import Sensors, Status, advance, new_sample
 from trackvib_sim.vehicle.system import new_work
 
+NO_SENSORS = Sensors(np.zeros(0, int), np.zeros((0, 3)), np.zeros((0, 9)))
+
 
 @pytest.fixture(scope="session")
 def rolling(vehicle, simulation):
@@ -23,8 +25,8 @@ def mover():
     """A function of a system that returns `move(state, road, steps)`, which moves a state on with 1 A in the coils."""
 
     def make(system):
-        work, sensors, current = new_work(system), Sensors(np.zeros(0, int), np.zeros((0, 3))), np.ones(2)
-        sample = new_sample(sensors)
+        work, sensors, current = new_work(system), NO_SENSORS, np.ones(2)
+        sample = new_sample(sensors, system.mounts)
 
         def move(state, road, steps):
             assert advance(system, state, road, current, steps, work, sensors, sample) == Status.GOOD

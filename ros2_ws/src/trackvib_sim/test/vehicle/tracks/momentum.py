@@ -19,8 +19,11 @@ class Momentum(NamedTuple):
 
 
 def shoes(chain, cells):
-    """Return a view (..., quantities, links) of the cells of nodes (..., quantities STRIDE), in their order."""
-    return cells.reshape(*cells.shape[:-1], -1, STRIDE)[..., 1 : chain.links + 1]
+    """Return a view (..., quantities, links) of the cells of nodes (..., quantities STRIDE), in their order.
+
+    Of tracks with as many links left as right.
+    """
+    return cells.reshape(*cells.shape[:-1], -1, STRIDE)[..., 1 : chain.links[0] + 1]
 
 
 def momentum(table, system, state):

@@ -8,7 +8,7 @@ def with_links(vehicle, links, pitch, teeth):
     """Return the vehicle with tracks of as much mass and elasticity a metre, and with other teeth."""
     tracks, share = vehicle.tracks, pitch / vehicle.tracks.pitch
     other = {
-        "links": float(links),
+        "links": [float(links)] * 2,
         "pitch": pitch,
         "shoe_mass": share * tracks.shoe_mass,
         "link_stiffness": tracks.link_stiffness / share,

@@ -36,8 +36,8 @@ def evaluated(still):
 
     def evaluate(chain, state):
         work = new_node_work()
-        see_from_hull(chain, state[0], still, work[0])
-        return shoes(chain, work)[0], *add_links(chain, work[0])
+        see_from_hull(chain, chain.links[0], state[0], still, work[0])
+        return shoes(chain, work)[0], *add_links(chain, 0, work[0])
 
     return evaluate
 
@@ -48,12 +48,12 @@ def swung(still):
 
     def move(chain, state, gravity, steps, damping=0.0):
         work, node = new_node_work()[0], shoes(chain, state)[0]
-        held = [0, chain.links // 2]
+        held = [0, chain.links[0] // 2]
         place = node[NodeOffset.PLACE : NodeOffset.PLACE + 3, held].copy()
         for _ in range(steps):
-            see_from_hull(chain, state[0], still, work)
-            add_links(chain, work)
-            move_nodes(chain, state[0], still, np.array(gravity), work, DT)
+            see_from_hull(chain, chain.links[0], state[0], still, work)
+            add_links(chain, 0, work)
+            move_nodes(chain, chain.links[0], state[0], still, np.array(gravity), work, DT)
             node[NodeOffset.VELOCITY : NodeOffset.VELOCITY + 3] *= 1.0 - damping * DT
             (
                 node[NodeOffset.PLACE : NodeOffset.PLACE + 3, held],
@@ -68,8 +68,8 @@ def test_chain_hangs_as_a_catenary(system, evaluated, swung):
 
     A chain of m links differs from the line by terms of 1 / m^2; 0.06 % in sag and in tension are measured.
     """
-    chain = system.tracks.chain._replace(links=2 * STRAND, **FREE_PINS)
-    state, span, length = new_nodes(), 3.6, STRAND * chain.free_length
+    chain = system.tracks.chain._replace(links=np.full(2, 2 * STRAND), **FREE_PINS)
+    state, span, length = new_nodes(), 3.6, STRAND * chain.free_length[0]
     along = np.abs(np.arange(2 * STRAND) - STRAND) / STRAND
     node = shoes(chain, state)[0]
     node[NodeOffset.PLACE] = span * (along - 0.5)
@@ -84,7 +84,7 @@ def test_chain_hangs_as_a_catenary(system, evaluated, swung):
     assert_allclose(node[NodeOffset.PLACE + 1], 0.0, atol=1e-12)
     work, dissipation, _ = evaluated(chain, state)
     middle = 0.5 * (node[NodeOffset.PLACE] + np.roll(node[NodeOffset.PLACE], -1))
-    weight = chain.shoe_mass * 9.81 / chain.free_length
+    weight = chain.shoe_mass * 9.81 / chain.free_length[0]
     assert_allclose(work[NodeWorkOffset.TENSION], weight * a * np.cosh(middle / a), rtol=1e-3)
     assert dissipation < 1e-6
 
@@ -96,9 +96,9 @@ def test_taut_chain_swings_at_its_natural_frequency(system, swung, axis, mode):
 
     Half a period turns them over.
     """
-    chain = system.tracks.chain._replace(links=2 * STRAND, **FREE_PINS)
+    chain = system.tracks.chain._replace(links=np.full(2, 2 * STRAND), **FREE_PINS)
     tension = 2e4
-    pitch = chain.free_length + tension / chain.stiffness
+    pitch = chain.free_length[0] + tension / chain.stiffness
     state, place = new_nodes(), np.abs(np.arange(2 * STRAND) - STRAND)
     node, shape = shoes(chain, state)[0], 1e-4 * np.sin(mode * np.pi * place / STRAND)
     node[NodeOffset.PLACE], node[NodeOffset.PLACE + axis] = pitch * place, shape
@@ -111,14 +111,14 @@ def test_taut_chain_swings_at_its_natural_frequency(system, swung, axis, mode):
 
 def _ring(chain, plane):
     """The state of a chain without tension laid as a regular polygon, and the angle between its links."""
-    state, angle = new_nodes(), 2.0 * np.pi * np.arange(chain.links) / chain.links
-    radius = 0.5 * chain.free_length / np.sin(np.pi / chain.links)
+    state, angle = new_nodes(), 2.0 * np.pi * np.arange(chain.links[0]) / chain.links[0]
+    radius = 0.5 * chain.free_length[0] / np.sin(np.pi / chain.links[0])
     node = shoes(chain, state)[0]
     node[NodeOffset.PLACE + plane[0]], node[NodeOffset.PLACE + plane[1]] = (
         radius * np.cos(angle),
         radius * np.sin(angle),
     )
-    return state, 2.0 * np.pi / chain.links
+    return state, 2.0 * np.pi / chain.links[0]
 
 
 @pytest.mark.parametrize(("plane", "stiffness"), [((0, 2), "pin_stiffness"), ((0, 1), "sideways_stiffness")])
@@ -133,7 +133,7 @@ def test_pins_resist_bending(system, evaluated, plane, stiffness):
     )
     # in balance: no link passes a force on but what rounding makes of T / k
     assert np.abs(work[NodeWorkOffset.LINK_FORCE : NodeWorkOffset.LINK_FORCE + 3]).max() < 1e-4
-    assert stored == pytest.approx(0.5 * chain.links * getattr(chain, stiffness) * np.sin(angle) ** 2, rel=1e-6)
+    assert stored == pytest.approx(0.5 * chain.links[0] * getattr(chain, stiffness) * np.sin(angle) ** 2, rel=1e-6)
 
 
 def test_turning_ring_meets_only_the_bearings_of_its_pins(system, evaluated):
@@ -152,4 +152,4 @@ def test_turning_ring_meets_only_the_bearings_of_its_pins(system, evaluated):
     )
     node[NodeOffset.VELOCITY : NodeOffset.VELOCITY + 3] = rate * node[NodeOffset.PLACE : NodeOffset.PLACE + 3]
     _, dissipation, _ = evaluated(chain, state)
-    assert dissipation == pytest.approx(chain.links * chain.damping * (rate * chain.free_length) ** 2, rel=1e-9)
+    assert dissipation == pytest.approx(chain.links[0] * chain.damping * (rate * chain.free_length[0]) ** 2, rel=1e-9)

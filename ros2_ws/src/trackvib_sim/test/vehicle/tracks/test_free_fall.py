@@ -42,8 +42,8 @@ def exchange(system, state, road):
     add_tracks(system.tracks, state.tracks, state.tree, road, work.motion, work.cuts, work.tracks, system.dt)
     turn = columns(work.motion, MotionOffset.ROTATION, 9)[chain.hull].reshape(3, 3)
     node = shoes(chain, work.tracks.nodes)
-    before = work.tracks.nodes.reshape(2, -1, STRIDE)[:, :, : chain.links]
-    behind = work.tracks.nodes.reshape(2, -1, STRIDE)[:, :, 2 : chain.links + 2]
+    before = work.tracks.nodes.reshape(2, -1, STRIDE)[:, :, : chain.links[0]]
+    behind = work.tracks.nodes.reshape(2, -1, STRIDE)[:, :, 2 : chain.links[0] + 2]
 
     def vectors(cells, quantity):
         return np.moveaxis(cells[:, quantity : quantity + 3], 1, 2).reshape(-1, 3)

@@ -20,7 +20,7 @@ def shoe(system):
     """A function that returns the state and the work of one shoe: views (quantities, 1) and the cells behind them."""
 
     def make(place, velocity=(0.0, 0.0, 0.0)):
-        chain = system.tracks.chain._replace(links=1)
+        chain = system.tracks.chain._replace(links=np.array([1, 1]))
         state, work = new_nodes()[0], new_node_work()[0]
         node = shoes(chain, state)
         node[NodeOffset.PLACE : NodeOffset.PLACE + 3, 0], node[NodeOffset.VELOCITY : NodeOffset.VELOCITY + 3, 0] = (

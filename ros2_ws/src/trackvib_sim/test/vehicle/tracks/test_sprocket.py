@@ -15,8 +15,9 @@ from trackvib_sim.vehicle.tracks.nodes import (
     new_nodes,
     see_from_hull,
 )
-from trackvib_sim.vehicle.tracks.sprockets import add_sprocket, find_rear
-from trackvib_sim.vehicle.tracks.wheels import Hub, WheelLoadOffset
+from trackvib_sim.vehicle.body_tree import REAR
+from trackvib_sim.vehicle.tracks.sprockets import add_sprocket
+from trackvib_sim.vehicle.tracks.wheels import Hub, WheelLoadOffset, find_outermost
 
 from .momentum import shoes
 
@@ -65,8 +66,8 @@ def test_strand_has_the_chordal_speed_ripple(system, still, teeth):
     """
     pitch, strand, speed, pull = 0.115, 16, 0.25, np.array([1.95e4, 2e4])
     links = 2 * strand + teeth // 2 + 1
-    chain = system.tracks.chain._replace(links=links, shoe_mass=15.7, stiffness=2e8, damping=3e4)
-    chain = chain._replace(free_length=pitch - pull[1] / chain.stiffness, **FREE_PINS)
+    chain = system.tracks.chain._replace(links=np.full(2, links), shoe_mass=15.7, stiffness=2e8, damping=3e4)
+    chain = chain._replace(free_length=np.full(2, pitch - pull[1] / chain.stiffness), **FREE_PINS)
     wheel = _clear(system, teeth, pitch)
     state, work, load, ends = new_nodes(), new_node_work()[0], np.zeros(WheelLoadOffset.SIZE), [0, links - 1]
     node, force = shoes(chain, state)[0], shoes(chain, work)
@@ -81,13 +82,13 @@ def test_strand_has_the_chordal_speed_ripple(system, still, teeth):
     rear, steps = strand + teeth // 4 + 1, 3 * per_pitch
     drawn, end_speed = np.zeros(steps), np.array([speed, -speed])
     for step in range(steps):
-        see_from_hull(chain, state[0], still, work)
-        add_links(chain, work)
-        rear = find_rear(work, rear, links)
+        see_from_hull(chain, links, state[0], still, work)
+        add_links(chain, 0, work)
+        rear = find_outermost(REAR, work, rear, links)
         add_sprocket(wheel, _wheel(spin), ahead + spin * DT * step, rear, links, work, load)
         tension = force[NodeWorkOffset.TENSION, [0, -2]] * np.abs(force[NodeWorkOffset.DIRECTION, [0, -2]])
         end = node[NodeOffset.PLACE, ends].copy()
-        move_nodes(chain, state[0], still, np.zeros(3), work, DT)
+        move_nodes(chain, links, state[0], still, np.zeros(3), work, DT)
         air = 200.0 * DT * (node[NodeOffset.PLACE] > pitch)
         node[NodeOffset.VELOCITY] += air * (np.sign(node[NodeOffset.PLACE + 2]) * speed - node[NodeOffset.VELOCITY])
         node[NodeOffset.VELOCITY + 2] -= air * node[NodeOffset.VELOCITY + 2]
@@ -112,7 +113,7 @@ def toothed(system):
 
     def touch(wheel, place, velocity=(0.0, 0.0), spin=0.0):
         links, work, load = 60, new_node_work()[0], np.zeros(WheelLoadOffset.SIZE)
-        node = shoes(system.tracks.chain._replace(links=links), work)
+        node = shoes(system.tracks.chain._replace(links=np.full(2, links)), work)
         node[NodeWorkOffset.NEAR] = 10.0
         node[[NodeWorkOffset.NEAR, NodeWorkOffset.NEAR + 2, NodeWorkOffset.SPEED, NodeWorkOffset.SPEED + 2], 29] = (
             *place,

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from trackvib_sim.vehicle.tracks.nodes import NodeWorkOffset, close_chain, new_node_work
-from trackvib_sim.vehicle.tracks.wheels import ROAD_WHEELS, Hub, WheelLoadOffset, add_wheel, find_link
+from trackvib_sim.vehicle.tracks.wheels import LOWER_RUN, Hub, WheelLoadOffset, add_wheel, find_link
 
 from .momentum import shoes
 
@@ -19,7 +19,7 @@ BENDS = st.lists(st.floats(-0.06, 0.06), min_size=LINKS, max_size=LINKS)  # from
 
 def _polygon(system, bends):
     """Work cells of a chain along x through the origin whose links turn upwards by `bends`, at rest."""
-    chain, work = system.tracks.chain._replace(links=LINKS), new_node_work()[0]
+    chain, work = system.tracks.chain._replace(links=np.full(2, LINKS)), new_node_work()[0]
     node, slope = shoes(chain, work), np.cumsum(bends)
     slope -= slope[LINKS // 2]
     link = PITCH * np.stack((np.cos(slope), np.sin(slope)))
@@ -33,7 +33,7 @@ def _touch(system, work, hub):
     """What the chain does to the front left road wheel at a hub."""
     load, link = np.zeros(WheelLoadOffset.SIZE), LINKS // 2
     for _ in range(LINKS):
-        link = find_link(ROAD_WHEELS, hub.x, work, link, LINKS)
+        link = find_link(LOWER_RUN, hub.x, work, link, LINKS)
     add_wheel(system.tracks.wheels, 0, 0, hub, link, LINKS, work, load)
     return load
 

@@ -11,7 +11,7 @@ from ...yaml_text import YamlTextError, read_text, validated
 from .vehicle_text import calibrated_vehicle_text
 
 DIGITS = 4  # of every value that is tried, so that what the file says is what was run
-_ITEM = re.compile(r"([a-z_]+\.[a-z_]+)(?:\[(\d)\])?")
+_ITEM = re.compile(r"([a-z_]\w*(?:\.[a-z_]\w*){1,3})(?:\[(\d)\])?")
 
 Bound = Annotated[float, Field(allow_inf_nan=False)]
 
@@ -25,7 +25,8 @@ class _Strict(BaseModel):
 
 
 class Parameter(_Strict):
-    """A number of the vehicle file that may vary, written `section.item` or `section.item[0]`."""
+    """A number of the vehicle file that may vary, written `section.item` or `section.item[0]`; sections may lie in
+    others: `bodies.turret.mass`."""
 
     item: str
     low: Bound
@@ -71,9 +72,12 @@ class Parameter(_Strict):
 
     def of(self, vehicle):
         """Return its value in a vehicle."""
-        section, name = self.quantity.split(".")
-        value = getattr(getattr(vehicle, section), name)
-        return value if self.component is None else value[self.component]
+        value = vehicle
+        for name in self.quantity.split("."):
+            value = value[name] if isinstance(value, dict) else getattr(value, name)
+        if isinstance(value, list):  # also one number for both sides or all stations
+            return value[self.component or 0]
+        return value
 
 
 class Plan(_Strict):

@@ -1,4 +1,4 @@
-"""Magnetorheological mounts: the paper's fits, their clamp, and the force pair between hull and powertrain."""
+"""Mounts: the paper's fits, their clamp, and the force pair between hull and powertrain."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from trackvib_sim.rui.sweeps.cells import columns
 from trackvib_sim.rui.sweeps.kinematics import MotionOffset, rotation
 from trackvib_sim.rui.sweeps.tree import rest_lanes, to_lanes
 from trackvib_sim.vehicle.coil import CoilState
-from trackvib_sim.vehicle.mr_mounts import (
+from trackvib_sim.vehicle.mounts import (
     add_mounts,
     mount_characteristics,
     mount_deflection,
@@ -35,21 +35,21 @@ FEW = settings(max_examples=30)
 )
 def test_fits_give_the_printed_values(system, current, stiffness, ratio, damping):
     """k, zeta and c at 1, 2 and 3 A are the printed ones to their four digits."""
-    k, c = mount_characteristics(system.mounts, current)
+    k, c = mount_characteristics(system.mounts, 0, current)
     assert k == pytest.approx(stiffness, abs=0.5e3)
     assert c == pytest.approx(damping, abs=5.0)
-    assert c / (2.0 * np.sqrt(k * system.mounts.carried_mass)) == pytest.approx(ratio, abs=0.5e-4)
+    assert c / (2.0 * np.sqrt(k * system.mounts.carried_mass[0])) == pytest.approx(ratio, abs=0.5e-4)
 
 
 @pytest.mark.literature
 def test_natural_frequency_is_the_papers(system):
     """Where a mount has the paper's 3 kN/mm, it carries its mass at the paper's 8.7 Hz."""
     m = system.mounts
-    current = brentq(lambda i: mount_characteristics(m, i)[0] - 3e6, m.lowest_current, m.highest_current)
-    k, _ = mount_characteristics(m, current)
-    assert np.sqrt(k / m.carried_mass) / (2.0 * np.pi) == pytest.approx(8.7, abs=0.05)
+    current = brentq(lambda i: mount_characteristics(m, 0, i)[0] - 3e6, *m.current_range[0])
+    k, _ = mount_characteristics(m, 0, current)
+    assert np.sqrt(k / m.carried_mass[0]) / (2.0 * np.pi) == pytest.approx(8.7, abs=0.05)
     assert current == pytest.approx(0.894, abs=0.5e-3)
-    assert m.static_load == 9800.0
+    assert_allclose(m.load, [(0.0, 0.0, 9800.0)] * 2)
 
 
 @pytest.mark.property
@@ -57,20 +57,21 @@ def test_natural_frequency_is_the_papers(system):
 def test_current_is_clamped_to_the_valid_range(system, current):
     """Outside the fits' range a mount is as at the range's end."""
     m = system.mounts
-    clamped = min(max(current, m.lowest_current), m.highest_current)
-    assert mount_characteristics(m, current) == mount_characteristics(m, clamped)
+    low, high = m.current_range[0].tolist()
+    clamped = min(max(current, low), high)
+    assert mount_characteristics(m, 0, current) == mount_characteristics(m, 0, clamped)
 
 
 @pytest.mark.property
 @given(current=CURRENTS, l=METRES, l_d=SPEEDS)
 def test_damping_never_drives(system, current, l, l_d):
     """Whatever range the file allows, damping is never negative and takes power from every motion."""
-    wide = system.mounts._replace(lowest_current=0.0, highest_current=6.0)
+    wide = system.mounts._replace(current_range=np.array([(0.0, 6.0)] * 2))
     for mounts in (system.mounts, wide):
-        k, c = mount_characteristics(mounts, current)
+        k, c = mount_characteristics(mounts, 0, current)
         assert k > 0.0 and c >= 0.0
-        force, power = mount_force(mounts, current, l, l_d)
-        still, _ = mount_force(mounts, current, l, (0.0, 0.0, 0.0))
+        force, power = mount_force(mounts, 0, current, l, l_d)
+        still, _ = mount_force(mounts, 0, current, l, (0.0, 0.0, 0.0))
         taken = -np.dot(np.subtract(force, still), l_d)
         assert power >= 0.0
         # differences of forces up to 1e6 N
@@ -80,19 +81,19 @@ def test_damping_never_drives(system, current, l, l_d):
 @pytest.mark.literature
 def test_fit_without_damping_is_cut_at_zero(system):
     """Below 0.641 A, where the paper's zeta(I) is negative, a mount allowed to go there has no damping."""
-    wide = system.mounts._replace(lowest_current=0.0)
-    assert mount_characteristics(wide, 0.0)[1] == 0.0
-    assert mount_characteristics(wide, 0.640)[1] == 0.0
-    assert mount_characteristics(wide, 0.643)[1] > 0.0
+    wide = system.mounts._replace(current_range=np.array([(0.0, 4.0)] * 2))
+    assert mount_characteristics(wide, 0, 0.0)[1] == 0.0
+    assert mount_characteristics(wide, 0, 0.640)[1] == 0.0
+    assert mount_characteristics(wide, 0, 0.643)[1] > 0.0
 
 
 @pytest.mark.analytic
 def test_force_law_by_axis(system):
     """Each axis has its ratio of k and c; the vertical one also carries the rated load."""
     m, l, l_d = system.mounts, (0.001, -0.002, 0.003), (0.1, 0.2, -0.3)
-    k, c = mount_characteristics(m, 1.5)
-    expected = -k * m.stiffness_ratio * l - c * m.damping_ratio * l_d + (0.0, 0.0, 9800.0)
-    assert_allclose(mount_force(m, 1.5, l, l_d)[0], expected, rtol=1e-14)
+    k, c = mount_characteristics(m, 0, 1.5)
+    expected = -k * m.stiffness[0] * l - c * m.damping[0] * l_d + (0.0, 0.0, 9800.0)
+    assert_allclose(mount_force(m, 0, 1.5, l, l_d)[0], expected, rtol=1e-14)
 
 
 @pytest.mark.analytic
@@ -101,14 +102,14 @@ def test_elastic_force_is_the_slope_of_the_stored_energy(system, current, l):
     """At rest a mount pushes down the slope of its energy, which is zero at the unloaded place."""
     m, h = system.mounts, 1e-3
     slope = [
-        (mount_stored_energy(m, current, tuple(l + step)) - mount_stored_energy(m, current, tuple(l - step)))
+        (mount_stored_energy(m, 0, current, tuple(l + step)) - mount_stored_energy(m, 0, current, tuple(l - step)))
         / (2.0 * h)
         for step in h * np.eye(3)
     ]
-    force, _ = mount_force(m, current, l, (0.0, 0.0, 0.0))
+    force, _ = mount_force(m, 0, current, l, (0.0, 0.0, 0.0))
     # central differences are exact in a parabola; rounding of energies up to 1e5 J over 2 mm
     assert_allclose(force, np.negative(slope), rtol=0, atol=1e-6)
-    assert mount_stored_energy(m, current, (0.0, 0.0, 0.0)) == 0.0
+    assert mount_stored_energy(m, 0, current, (0.0, 0.0, 0.0)) == 0.0
 
 
 @pytest.mark.analytic
@@ -139,7 +140,7 @@ def test_force_pair_leaves_total_momentum_alone(system, random_motion, added, se
     assert_allclose(loads.force.sum(0), 0.0, atol=1e-12 * np.abs(loads.force).max())
     assert_allclose(moment.sum(0), 0.0, atol=1e-12 * np.abs(moment).max())
     touched = np.flatnonzero(np.abs(loads.force).sum(1))
-    assert set(touched) == {system.mounts.hull, system.mounts.powertrain}
+    assert set(touched) == {system.mounts.parent[0], system.mounts.body[0]}
     assert not loads.torque.any()
 
 
@@ -160,7 +161,7 @@ def test_force_pair_does_the_work_of_the_mounts(system, random_motion, added, se
     expected = 0.0
     for index in range(2):
         _, l, l_d = mount_deflection(m, motion, index, 0.0, 0.0)
-        expected += np.dot(mount_force(m, currents[index], l, l_d)[0], l_d)
+        expected += np.dot(mount_force(m, index, currents[index], l, l_d)[0], l_d)
     size = np.abs(loads.force).max() * np.abs(velocity).max() + np.abs(loads.moment).max()
     assert power == pytest.approx(expected, abs=1e-11 * size)
 
@@ -170,13 +171,13 @@ def test_imposed_displacement_acts_across_the_mounts(system, moved, added):
     """A displacement d imposed at a rate d' pushes each side as a deflection -d at a rate -d' would."""
     state = rest_lanes(system.tree)
     motion = moved(system.tree, state)
-    k, c = mount_characteristics(system.mounts, 1.0)
+    k, c = mount_characteristics(system.mounts, 0, 1.0)
     loads = []
     for d, d_rate in ((0.0, 0.0), (2e-4, 0.05)):
         cuts = new_cuts(system.tree)
         add_mounts(system.mounts, motion, cuts, np.array([1.0, 1.0]), d, d_rate)
         loads.append(added(cuts))
-    push = (loads[1].force - loads[0].force)[[system.mounts.powertrain, system.mounts.hull], 2]
+    push = (loads[1].force - loads[0].force)[[system.mounts.body[0], system.mounts.parent[0]], 2]
     assert_allclose(push, [2.0 * (k * 2e-4 + c * 0.05), -2.0 * (k * 2e-4 + c * 0.05)], rtol=1e-9)
 
 
@@ -191,12 +192,12 @@ def test_observed_mounts_are_those_that_act(system, random_motion, added, seed):
     m, currents = system.mounts, np.array([0.9, 3.1])
     motion, cuts = random_motion(seed), new_cuts(system.tree)
     add_mounts(m, motion, cuts, currents, 2e-4, 0.05)
-    sample, in_coils = new_mount_sample(), np.array([1.0, 3.0])
+    sample, in_coils = new_mount_sample(m), np.array([1.0, 3.0])
     observe_mounts(m, motion, CoilState(np.zeros((2, 0)), in_coils, in_coils, currents), 2e-4, 0.05, sample)
-    turn = np.reshape(rotation(motion, m.hull), (3, 3))
-    assert_allclose(turn @ sample.force.sum(0), added(cuts).force[m.powertrain], rtol=1e-12)
+    turn = np.reshape(rotation(motion, m.parent[0]), (3, 3))
+    assert_allclose(turn @ sample.force.sum(0), added(cuts).force[m.body[0]], rtol=1e-12)
     assert_allclose(sample.current, in_coils)
     for index in range(2):
-        assert (sample.stiffness[index], sample.damping[index]) == mount_characteristics(m, currents[index])
-        expected = sample.damping[index] * np.dot(m.damping_ratio, sample.velocity[index] ** 2)
+        assert (sample.stiffness[index], sample.damping[index]) == mount_characteristics(m, index, currents[index])
+        expected = sample.damping[index] * np.dot(m.damping[index], sample.velocity[index] ** 2)
         assert sample.dissipated_power[index] == pytest.approx(expected, rel=1e-12)
