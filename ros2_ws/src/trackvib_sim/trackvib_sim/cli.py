@@ -5,7 +5,7 @@ import sys
 
 import click
 from mr_mount_controller.laws import known_laws
-from mr_mount_controller.node_base.plain_text import readable
+from mr_mount_controller.node_base.plain_text import plain_line
 
 from .commands.analyze_cli import analyze
 from .commands.bag_cli import bag
@@ -28,7 +28,7 @@ class _Verbs(click.Group):
             with lasting_output():
                 return super().invoke(context)
         except click.ClickException as error:
-            error.message = readable(error.message)  # it may name a file
+            error.message = plain_line(error.message)  # it may name a file
             raise
         except KeyboardInterrupt:
             say("interrupted")
