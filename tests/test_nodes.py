@@ -56,6 +56,9 @@ def test_waits_and_ends_cleanly(start_node, tmp_path, name, number):
         ("controller", {"sample_rate": 300}, ["'sample_rate'", "300", "divisors"]),
         ("simulator", {"use_sim_time": 3}, ["simulator: parameter 'use_sim_time' is 3", "true or false"]),
         ("player", {"use_sim_time": 3}, ["player: parameter 'use_sim_time' is 3", "true or false"]),
+        ("player", {"start_type_description_service": " "}, ["'start_type_description_service'", "true or false"]),
+        ("player", {"bag": "x" * 300}, ["xx' cannot be read: File name too long"]),
+        ("simulator", {"speed": "9" * 5000}, ["'speed'", "99 ... 99", "0 to 25 m/s"]),
     ],
 )
 def test_bad_parameter_is_refused_by_name(start_node, tmp_path, name, parameters, words):

@@ -1,7 +1,5 @@
 """Lines of arguments of every verb, with odd values, and in each at least one thing that no verb accepts."""
 
-import contextlib
-import io
 import os
 import sys
 import tempfile
@@ -11,11 +9,18 @@ import click
 from trackvib_sim.cli import main
 
 from .odd_values import CONTROL, LAWS, NUMBERS, PLACES, TEXTS
-from .trial import Wrong, flaw
+from .trial import Wrong, captured, flaw
 
 REFUSALS = ()  # all end in an exit code
-BROKEN = {"broken_law": "1 / 0", "leaving_law": "raise SystemExit", "no_python_law": "law (", "endless_law":
-          "def f(): f()\nf()", "silent_law": "raise KeyError", "odd_law": f"raise RuntimeError({CONTROL!r})"}  # fmt: skip
+BROKEN = {
+    "broken_law": "1 / 0",
+    "leaving_law": "raise SystemExit",
+    "no_python_law": "law (",
+    "endless_law": "def f(): f()\nf()",
+    "silent_law": "raise KeyError",
+    "odd_law": f"raise RuntimeError({CONTROL!r})",
+}
+NONSENSE = ("--nonsense", "--nonsense=1", "-Z", f"--{CONTROL}", "--" + "x" * 5000, "--\udcff=x")
 NOWHERE = ("/dev/null/x", "/proc/nowhere/x", f"/proc/{CONTROL}/x", "x" * 300 + "/x")
 SCHEDULERS = ("", "x", "tcp://", "tcp://127.0.0.1:1", "tcp://127.0.0.1:x", "tls://127.0.0.1:1", "http://127.0.0.1:1",
               "tcp://127.0.0.1:99999999", "ucx://x", "inproc://x", CONTROL, "tcp://[::1")  # fmt: skip
@@ -53,18 +58,19 @@ def _line(path, command, chance):
     wrong, spoilt = _wrong(path, command, chance)
     odd = [option for option in _options(command) if option is not spoilt and chance.random() < 0.4]
     pieces = [_piece(option, _value(option, chance), chance) for option in odd]
-    if not any(isinstance(each, click.Argument) for each in command.params):
-        arguments = []
-    else:  # no bag is there, so this alone is wrong
-        arguments = [chance.choice(PLACES) for _ in range(chance.choice((0, 1, 1, 1, 2)))]
-    pieces += [[each] for each in arguments] + [wrong]
+    if _takes_arguments(command):  # no bag is there, so this alone is wrong
+        pieces += [[chance.choice(PLACES)] for _ in range(chance.choice((0, 1, 1, 1, 2)))]
+    pieces.append(wrong)
     chance.shuffle(pieces)
     words = [word for piece in pieces for word in piece]
     if chance.random() < 0.05:
         path = (*path[:-1], chance.choice((*TEXTS, "runn", path[-1].upper())))
-    if wrong and wrong[0] == "--" and arguments:
-        words = [*words, "x"]
-    return [*path, *words]
+    before = [chance.choice(NONSENSE)] if chance.random() < 0.03 else []
+    return [*before, *path, *words]
+
+
+def _takes_arguments(command):
+    return any(isinstance(each, click.Argument) for each in command.params)
 
 
 def _options(command):
@@ -82,8 +88,8 @@ def _wrong(path, command, chance):
     """Return words that make a line wrong, and the option that they spoil, or None."""
     options = _options(command)
     if chance.random() < 0.3 or not options:
-        return [chance.choice(("--nonsense", "--nonsense=1", "-Z", f"--{CONTROL}", "--" + "x" * 5000, "--\udcff=x"))], None
-    if chance.random() < 0.1 and not any(isinstance(each, click.Argument) for each in command.params):
+        return [chance.choice(NONSENSE)], None
+    if chance.random() < 0.1 and not _takes_arguments(command):
         return chance.choice(([chance.choice(TEXTS)], ["--", "--nonsense"])), None
     option = chance.choice(options)
     if option.is_flag:
@@ -124,17 +130,14 @@ def _value(option, chance):
 
 
 def _attempt(words):
-    out, err = (io.TextIOWrapper(io.BytesIO(), "utf-8", errors) for errors in ("strict", "backslashreplace"))
     code = None
-    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+    with captured() as said:
         try:
             main.main(words, prog_name="trackvib")
         except SystemExit as ending:
             code = ending.code
-    err.flush()
-    said = err.buffer.getvalue().decode()
     if not isinstance(code, int) or code in (0, 130):
-        raise Wrong(f"exit code {code}: {said[:200]!r}")
-    if wrong := flaw(said):
+        raise Wrong(f"exit code {code}: {said.text[:200]!r}")
+    if wrong := flaw(said.text):
         raise Wrong(wrong)
     return f"exit code {code}"

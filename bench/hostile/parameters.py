@@ -29,10 +29,16 @@ from .odd_values import CONTROL, LAWS, NUMBERS, PLACES, TEXTS
 from .trial import Wrong, captured
 
 REFUSALS = (ParameterError, NodeError, RCLError)
-NODES = ((SimulatorNode, SIMULATOR), (ControllerNode, CONTROLLER), (RoadExcitationNode, ROAD), (RecorderNode, RECORDER),
-         (PlayerNode, PLAYER))  # fmt: skip
-OTHERS = ("[]", "[1, a]", "['']", "['a b']", "[1.0]", "{a: b}", "*a", "&a x", "!!int x", "!!binary x", "(", "[a-", "^a*b?$",
-          "(a+)+$", "2001-01-01", "on", "[" * 60, "'", '"', "|", "a: b: c", "# x", "[chassis/imu, /x, x/]", "['~/x', '{x}']")  # fmt: skip
+NODES = (
+    (SimulatorNode, SIMULATOR),
+    (ControllerNode, CONTROLLER),
+    (RoadExcitationNode, ROAD),
+    (RecorderNode, RECORDER),
+    (PlayerNode, PLAYER),
+)
+OTHERS = ("[]", "[1, a]", "['']", "['a b']", "[1.0]", "{a: b}", "*a", "&a x", "!!int x", "!!binary x", "(", "[a-",
+          "^a*b?$", "(a+)+$", "2001-01-01", "on", "[" * 60, "'", '"', "|", "a: b: c", "# x", "[chassis/imu, /x, x/]",
+          "['~/x', '{x}']")  # fmt: skip
 NAMES = ("nonsense", "use_sim_time", "start_type_description_service", "qos_overrides./x", "", " ", "a b", "a.b", "a:",
          "/a", "**", CONTROL, "speed.speed", "x" * 300)  # fmt: skip
 ARGUMENTS = (["x"], ["--nonsense"], ["--ros-args", "--nonsense"], ["--ros-args", "-p"], ["--ros-args", "-p", "x"],

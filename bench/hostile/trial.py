@@ -3,6 +3,7 @@
 import os
 import re
 import signal
+import sys
 import tempfile
 import traceback
 from contextlib import contextmanager
@@ -57,6 +58,8 @@ def captured():
         try:
             yield said
         finally:
+            sys.stdout.flush()
+            sys.stderr.flush()
             for fd, copy in before:
                 os.dup2(copy, fd)
                 os.close(copy)

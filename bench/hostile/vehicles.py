@@ -29,7 +29,8 @@ def trials(chance, count):
     places = _numbers(content)
     for _ in range(count):
         new, done = _wild(content, places, chance)
-        yield done, lambda text=yaml.safe_dump(new, sort_keys=False): _attempt(text)
+        text = yaml.safe_dump(new, sort_keys=False)
+        yield done, lambda text=text: _attempt(text)
 
 
 def _numbers(content):
