@@ -82,7 +82,7 @@ def _verb_on(verb, bag, folder):
         (late, f"more than {PATIENCE:g} s"),
         (usage.ru_maxrss > MEMORY, f"{usage.ru_maxrss // 1000} MB"),
         ("Traceback" in text, "traceback"),
-        (CONTROL.search(text), "control character"),
+        (control := CONTROL.search(text), control and f"control character in {text[: control.end() + 80]!r:.300}"),
         (process.returncode < 0, f"signal {-process.returncode}"),
     ]
     if any(is_so for is_so, _ in wrong):
