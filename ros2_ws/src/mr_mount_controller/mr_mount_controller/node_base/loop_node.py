@@ -143,7 +143,7 @@ def start_ros(args=()):
         reason = str(error).removeprefix("failed to initialize rcl: ").split(". Error:")[0].split(", at /")[0]
         raise ParameterError(f"arguments of ROS 2: {reason.rstrip('.')}; {_ACCEPTED}") from None
     except UnicodeEncodeError as error:
-        raise ParameterError(f"argument {error.object!r} is not known: accepted is text in UTF-8") from None
+        raise ParameterError(f"argument {error.object!r} is no text in UTF-8; {_ACCEPTED}") from None
     finally:
         set_logger_level("rcl", LoggingSeverity.UNSET)
     if foreign := remove_ros_args(args)[1:]:
