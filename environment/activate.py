@@ -55,6 +55,7 @@ def before_workspace(places: Places, ros: Ros, environ) -> dict:
     env.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     # The shared memory of a process that was killed can block every later one; not in force with LOCALHOST, see docs.
     env.setdefault("FASTDDS_BUILTIN_TRANSPORTS", "UDPv4")
+    env.setdefault("FASTRTPS_DEFAULT_PROFILES_FILE", str(places.environment / "fastdds.xml"))
     with contextlib.suppress(OSError):  # rclpy says itself that it has no place for its logs
         env.setdefault("ROS_LOG_DIR", str(_ros_logs(places, environ)))
     return env

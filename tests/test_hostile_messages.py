@@ -153,11 +153,17 @@ def test_controller_takes_no_number_that_no_sensor_measures(start_node, observer
     for out in outs:
         observer.wait_until(out.get_subscription_count)
     imu = ImuMessage("imu")
-    samples = [(1, 9.81), (2, math.nan), (3, math.inf), (4, 1e300), (5, 9.81)]
-    for stamp, force in samples:
+    answered = lambda: [deserialize_message(data, CoilCurrent).sample_stamp.nanosec // MS for data in answers]  # noqa: E731
+
+    def send(stamp, force):
         for out in outs:
             out.publish(imu.fill(stamp * MS, (0.0, 0.0, force), (0.0, 0.0, 0.0)))
-    answered = lambda: [deserialize_message(data, CoilCurrent).sample_stamp.nanosec // MS for data in answers]  # noqa: E731
+
+    send(1, 9.81)
+    # only then do both of its readers hear: one that was found later would get all its messages after the other's
+    observer.wait_until(lambda: answered() == [1])
+    for stamp, force in ((2, math.nan), (3, math.inf), (4, 1e300), (5, 9.81)):
+        send(stamp, force)
     observer.wait_until(lambda: answered() == [1, 5])
     assert_in_good_health(controller)
     assert "6 messages were refused" in controller.output

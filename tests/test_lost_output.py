@@ -141,15 +141,17 @@ def test_a_run_whose_folder_goes(start_cli, tmp_path):
     one_error(run.output)
 
 
-def test_a_run_that_lost_messages_says_so(start_cli, tmp_path):
+def test_a_run_that_lost_messages_says_so(start_cli, observer, tmp_path):
     """A recorder that stands still for longer than it is waited for: what it missed is counted, the exit code tells."""
-    run = start_cli("run", "--duration", "30", "--one-process", "--out", tmp_path / "out")
+    run = start_cli("run", "--duration", "6", "--one-process", "--out", tmp_path / "out")
     log = tmp_path / "out" / "log" / "one_process.log"
     wait_until(lambda: log.exists() and "answering" in log.read_text())
     recorder = children(run.pid)["recorder"]
     os.kill(recorder, signal.SIGSTOP)
     wait_until(lambda: "the recorder does not keep up" in log.read_text())
-    time.sleep(2.0)  # in which the loop goes on, beyond what its writers hold
+    observer.wait_until(lambda: "time" in observer.values)
+    begin = float(observer.values["time"])
+    observer.wait_until(lambda: float(observer.values["time"]) > begin + 2.5)  # s, its writers hold one of samples
     os.kill(recorder, signal.SIGCONT)
     assert run.wait() == 1
     assert f"the bag in '{tmp_path / 'out'}' is not complete, it lacks" in one_error(run.output)

@@ -56,6 +56,9 @@ def test_waits_and_ends_cleanly(start_node, tmp_path, name, number):
         ("controller", {"sample_rate": 300}, ["'sample_rate'", "300", "divisors"]),
         ("simulator", {"use_sim_time": 3}, ["simulator: parameter 'use_sim_time' is 3", "true or false"]),
         ("player", {"use_sim_time": 3}, ["player: parameter 'use_sim_time' is 3", "true or false"]),
+        ("player", {"start_type_description_service": " "}, ["'start_type_description_service'", "true or false"]),
+        ("player", {"bag": "x" * 300}, ["xx' cannot be read: File name too long"]),
+        ("simulator", {"speed": "9" * 5000}, ["'speed'", "99 ... 99", "0 to 25 m/s"]),
     ],
 )
 def test_bad_parameter_is_refused_by_name(start_node, tmp_path, name, parameters, words):
@@ -77,6 +80,7 @@ def test_bad_parameter_is_refused_by_name(start_node, tmp_path, name, parameters
         ("recorder", ("--ros-args", "-p", "bag"), "parameter override rule: '-p bag'"),
         ("one_process", ("--ros-args", "-r", "__ns:=bad"), "remap rule: '-r __ns:=bad'"),
         ("player", ("--ros-args", "--params-file", "/nowhere"), "params file: '--params-file /nowhere'"),
+        ("simulator", ("--ros-args", "-p", "vehicle_file:=\udcff"), "is no text in UTF-8"),
     ],
 )
 def test_bad_argument_is_refused_in_one_line(start_node, name, arguments, words):
@@ -122,6 +126,15 @@ def test_names_can_be_remapped_into_a_namespace(start_node, tmp_path):
     start_node("controller", *inside)
     simulator = start_node("simulator", *inside, duration=0.3)
     assert simulator.wait() == 0, simulator.output
+
+
+def test_what_a_node_is_told_is_shown_as_signs(start_node, tmp_path):
+    """What it waits for and where it records never move the cursor."""
+    recorder = start_node("recorder", pattern=r'"\x1bred"', bag=rf'"{tmp_path}/ba\x1bg"')
+    recorder.wait_for(r"topics like '\x1bred'")
+    recorder.signal(signal.SIGINT)
+    assert recorder.wait() == 0, recorder.output
+    assert r"ba\x1bg" in recorder.output and "\x1b" not in recorder.output
 
 
 def test_existing_bag_is_not_overwritten(start_node, tmp_path):

@@ -211,3 +211,13 @@ def test_unknown_laws_are_refused_by_name(name):
     with pytest.raises(ParameterError) as refused:
         find_law(name)
     assert f"'law' is {name!r}" in str(refused.value)
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("text", ["1 / 0", "raise SystemExit", "law (", "raise KeyError", "def f(): f()\nf()"])
+def test_a_law_whose_module_fails_is_refused(tmp_path, monkeypatch, text):
+    """Whatever it raises when it is loaded, the error names the law."""
+    (tmp_path / "failing_law.py").write_text(text)
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(ParameterError, match="'failing_law:Law', which cannot be loaded: [A-Z]"):
+        find_law("failing_law:Law")

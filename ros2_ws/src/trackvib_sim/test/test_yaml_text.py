@@ -18,7 +18,7 @@ pytestmark = pytest.mark.property
         ("- " * 3000, "nested too deeply"),
         ("a: 2001-99-99", "not a YAML file"),
         ("a: !!int ''", "not a YAML file"),
-        ("a: !!bool q", "not a YAML file"),
+        ("a: !!bool q", "a value is not of the kind that it should be: 'q'"),
         ("? [1]\n: 2", "not a YAML file"),
         ("a: " + ":".join(["1"] * 100_000), "a number of 199999 characters, accepted are 100"),
         ("!!python/object/apply:os.system [id]", "not a YAML file"),

@@ -2,10 +2,11 @@
 
 import signal
 import sys
+from contextlib import contextmanager
 
 import click
 from mr_mount_controller.laws import known_laws
-from mr_mount_controller.node_base.plain_text import readable
+from mr_mount_controller.node_base.plain_text import plain_line
 
 from .commands.analyze_cli import analyze
 from .commands.bag_cli import bag
@@ -23,18 +24,29 @@ class _Verbs(click.Group):
     So does standard output that breaks off, once the verb's work is done.
     """
 
+    def make_context(self, *arguments, **extra):
+        with _plain_errors():
+            return super().make_context(*arguments, **extra)
+
     def invoke(self, context):
         try:
-            with lasting_output():
+            with _plain_errors(), lasting_output():
                 return super().invoke(context)
-        except click.ClickException as error:
-            error.message = readable(error.message)  # it may name a file
-            raise
         except KeyboardInterrupt:
             say("interrupted")
             sys.exit(INTERRUPTED)
         except OutputLost as error:
             fail(error)
+
+
+@contextmanager
+def _plain_errors():
+    """Make a plain line of what is wrong with the arguments: it quotes them, and they may name a file."""
+    try:
+        yield
+    except click.ClickException as error:
+        error.message = plain_line(error.message)
+        raise
 
 
 @click.group(cls=_Verbs, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})

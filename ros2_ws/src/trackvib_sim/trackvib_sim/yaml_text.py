@@ -83,6 +83,8 @@ def _bounded(text, name, read):
     # all but the first from tagged values that PyYAML does not check: impossible dates, `!!bool x`, `!!int ''`
     except (yaml.YAMLError, ValueError, LookupError, AttributeError, OverflowError, TypeError) as error:
         reason = shortened(" ".join(str(error).split()), _LONGEST_REASON)
+        if not isinstance(error, yaml.YAMLError):
+            reason = f"a value is not of the kind that it should be: {reason}"
         raise YamlTextError(readable(f"{name}: not a YAML file: {reason}")) from None
 
 

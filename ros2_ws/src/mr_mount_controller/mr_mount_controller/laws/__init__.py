@@ -69,8 +69,9 @@ def _load(name, place):
     module, _, attribute = place.partition(":")
     try:
         law = getattr(import_module(module), attribute)
-    except (ImportError, AttributeError, TypeError, ValueError) as error:
-        raise ParameterError(f"parameter 'law' is {name!r}, which cannot be loaded: {error}") from None
+    except (Exception, SystemExit) as error:  # whatever the module of a user raises
+        reason = f"{type(error).__name__}: {error}"
+        raise ParameterError(f"parameter 'law' is {name!r}, which cannot be loaded: {reason}") from None
     if not (isinstance(law, type) and issubclass(law, ControlLaw) and law is not ControlLaw):
         raise ParameterError(f"parameter 'law' is {name!r}, which is not a subclass of {ControlLaw.__name__}")
     return law

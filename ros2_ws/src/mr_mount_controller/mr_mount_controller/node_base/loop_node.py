@@ -6,7 +6,7 @@ import sys
 import rclpy
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy._rclpy_pybind11 import RCLError, UnknownROSArgsError
-from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
+from rclpy.exceptions import ParameterException
 from rclpy.experimental import EventsExecutor
 from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
@@ -16,7 +16,7 @@ from rclpy.utilities import remove_ros_args
 from .listener import Listener
 from .parameters import Parameter, ParameterError
 from .patience import Patience
-from .plain_text import readable
+from .plain_text import plain_line
 from .shared_memory import remove_unfinished_segments
 
 _ACCEPTED = (
@@ -41,7 +41,7 @@ class LoopNode(Node):
     def __init__(self, name, parameters):
         try:
             super().__init__(name)
-        except InvalidParameterTypeException:  # whose words do not tell what is accepted
+        except ParameterException:  # whose words do not tell what is accepted
             for own in _OF_EVERY_NODE:
                 if own.name in self._parameter_overrides:
                     _checked(own, self._parameter_overrides[own.name].value, name)
@@ -110,7 +110,7 @@ class LoopNode(Node):
                 descriptor.floating_point_range = [limits]
         try:
             value = self.declare_parameter(parameter.name, parameter.default, descriptor).value
-        except (InvalidParameterTypeException, InvalidParameterValueException):
+        except ParameterException:
             value = self._parameter_overrides[parameter.name].value
         return _checked(parameter, value, self.get_name())
 
@@ -142,6 +142,8 @@ def start_ros(args=()):
         # what follows is a place in its parser's source
         reason = str(error).removeprefix("failed to initialize rcl: ").split(". Error:")[0].split(", at /")[0]
         raise ParameterError(f"arguments of ROS 2: {reason.rstrip('.')}; {_ACCEPTED}") from None
+    except UnicodeEncodeError as error:
+        raise ParameterError(f"argument {error.object!r} is no text in UTF-8; {_ACCEPTED}") from None
     finally:
         set_logger_level("rcl", LoggingSeverity.UNSET)
     if foreign := remove_ros_args(args)[1:]:
@@ -175,7 +177,7 @@ def run_node(make_node, args=None, companions=()):
                     node.get_logger().warning(f"{node.refused} messages were refused")
             executor.shutdown()
     except (ParameterError, NodeError, RCLError) as error:
-        print(f"error: {readable(str(error))}", file=sys.stderr)
+        print(f"error: {plain_line(str(error))}", file=sys.stderr)
         return 2 if isinstance(error, ParameterError) else 1
     finally:
         for node in nodes:

@@ -124,3 +124,10 @@ def test_odd_folders(tmp_path):
     for name, bag, victim in odd_folders(tmp_path, sound_file()):
         accepted(bag)
         assert victim.read_text() == "precious", name
+
+
+def test_a_name_that_is_too_long():
+    """Is that of a bag that cannot be read."""
+    for verb in (contents, read_recording, messages, open_bag, repair):
+        with pytest.raises(BagError, match="xx' cannot be read: File name too long"):
+            verb("x" * 300)

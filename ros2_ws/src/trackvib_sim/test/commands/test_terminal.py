@@ -5,6 +5,7 @@ from io import StringIO
 import pytest
 from mr_mount_controller.node_base.plain_text import readable, shortened
 from rich.table import Table
+from trackvib_sim.cli import main
 from trackvib_sim.commands.endings import fail
 from trackvib_sim.console import Terminal, followed
 
@@ -40,6 +41,16 @@ def test_errors_are_lines_of_signs(capsys):
     assert ended.value.code == 2
     first, second = capsys.readouterr().err.splitlines()
     assert first.startswith("cannot: first \\x1b[31m") and len(first) < 3000 and second == "second"
+
+
+@pytest.mark.parametrize("word", [f"--{HOSTILE}", "--" + "x" * 10**5, HOSTILE, "x" * 10**5])
+def test_arguments_are_quoted_as_signs(capsys, word):
+    """What is no option and no verb, in a line that is not endless."""
+    with pytest.raises(SystemExit) as ended:
+        main.main([word], prog_name="trackvib")
+    assert ended.value.code == 2
+    lines = capsys.readouterr().err.splitlines()
+    assert lines[-1].startswith("Error: No such") and all(line.isprintable() and len(line) < 3000 for line in lines)
 
 
 MANY = "x" * 10**6

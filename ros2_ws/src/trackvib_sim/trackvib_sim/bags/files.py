@@ -15,9 +15,15 @@ def bag_files(path):
     Raises
     ------
     BagError
-        There are none.
+        There are none, or it cannot be found out.
     """
-    path = Path(path)
+    try:
+        return _files(Path(path))
+    except OSError as error:  # a name that is too long, a folder that is another user's
+        raise BagError(f"bag {str(path)!r} cannot be read: {error.strerror}") from None
+
+
+def _files(path):
     if path.is_file():
         return [path]
     files = sorted(filter(Path.is_file, path.glob("*.mcap")), key=lambda each: (len(each.name), each.name))

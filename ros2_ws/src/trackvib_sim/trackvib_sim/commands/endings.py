@@ -2,9 +2,7 @@
 
 import sys
 
-from mr_mount_controller.node_base.plain_text import readable, shortened
-
-_LONGEST_LINE = 2000  # characters
+from mr_mount_controller.node_base.plain_text import plain_line
 
 
 def fail(error, code=1, word="error"):
@@ -16,4 +14,4 @@ def fail(error, code=1, word="error"):
 def say(text):
     """Print a text on stderr, a line for each of its lines."""
     for line in text.split("\n"):
-        print(shortened(readable(line), _LONGEST_LINE), file=sys.stderr)
+        print(plain_line(line), file=sys.stderr)

@@ -9,6 +9,7 @@ from builtin_interfaces.msg import Time
 from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.loop_node import LoopNode, NodeError, run_node
 from mr_mount_controller.node_base.parameters import Parameter
+from mr_mount_controller.node_base.plain_text import plain_line
 from mr_mount_controller.node_base.qos import LATCHED_QOS
 from rclpy.serialization import deserialize_message
 
@@ -86,7 +87,7 @@ class RecorderNode(LoopNode):
         """Make the bag, wait for every topic, write down where it comes from, record until told to stop."""
         try:
             self._open(self._path)
-            self.get_logger().info(f"waiting for {self._choice}")
+            self.get_logger().info(plain_line(f"waiting for {self._choice}"))
             if self.spin_until(self._choice.complete):
                 self._record()
         except OSError as error:
@@ -117,7 +118,7 @@ class RecorderNode(LoopNode):
         self._take_up(chosen)
         self.spin_until(lambda: self._failure or all(each.get_publisher_count() for each in self._taken))
         self._report()  # whoever waits for a recorder starts with this
-        self.get_logger().info(f"recording {len(self._topics)} topics to {self._bag.path}")
+        self.get_logger().info(plain_line(f"recording {len(self._topics)} topics to {self._bag.path}"))
         looked = time.monotonic()
         while not self.stopping():
             if self._take_all():
@@ -146,7 +147,7 @@ class RecorderNode(LoopNode):
             bag.close()
         except OSError as error:
             raise NodeError(f"bag {str(bag.path)!r} is not complete: {error.strerror}") from None
-        self.get_logger().info(f"{bag.counts.total()} messages in {bag.path}")
+        self.get_logger().info(plain_line(f"{bag.counts.total()} messages in {bag.path}"))
 
     def _given_up(self, error):
         path, self._bag = self._bag.path, None
@@ -160,7 +161,7 @@ class RecorderNode(LoopNode):
         self._epoch += 1
         self._times, self._described, self._undescribed = Timekeeping(), set(), True
         self._open(f"{self._path}_epoch_{self._epoch}")
-        self.get_logger().info(f"the simulation has begun anew, recording to {self._bag.path}")
+        self.get_logger().info(plain_line(f"the simulation has begun anew, recording to {self._bag.path}"))
 
     def _describe(self, names):
         """Write down what makes the messages of some topics, where the bag does not have it yet."""
@@ -184,7 +185,7 @@ class RecorderNode(LoopNode):
                 if name in self._choice.named:
                     raise NodeError(f"{name} cannot be recorded: {error}") from None
                 self._refused.add(name)
-                self.get_logger().warning(f"{name} is not recorded: {error}")
+                self.get_logger().warning(plain_line(f"{name} is not recorded: {error}"))
                 continue
             self._topics[name] = topic
             self._taken.append(subscription)

@@ -1,9 +1,11 @@
 """What a calibration may change and how it searches: its plan, read from a YAML file and checked."""
 
 import re
-from math import exp, log
+from math import exp, isfinite, log
+from sys import float_info
 from typing import Annotated, Literal
 
+from mr_mount_controller.node_base.plain_text import readable, shortened
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from ...vehicle.vehicle_file import parse_vehicle
@@ -42,6 +44,10 @@ class Parameter(_Strict):
             raise ValueError(f"{self.item}: low is {self.low:g} and high {self.high:g}, low must be below high")
         if self.scale == "log" and self.low <= 0.0:
             raise ValueError(f"{self.item}: low is {self.low:g}, must be > 0 on a log scale")
+        if self.scale == "log" and not isfinite(self.high / self.low):
+            raise ValueError(
+                f"{self.item}: low is {self.low:g}, must be at least {self.high / float_info.max:.2g} on a log scale"
+            )
         return self
 
     @property
@@ -131,7 +137,8 @@ def read_plan(path, vehicle_text, given):
     for row in plan.rows:
         if row not in given:
             known = ", ".join(f"[{road_class}, {speed:g}]" for road_class, speed in given)
-            raise PlanError(f"{path}: rows: [{row[0]}, {row[1]:g}] is not in the paper's table, which gives {known}")
+            name = readable(shortened(row[0]))
+            raise PlanError(f"{path}: rows: [{name}, {row[1]:g}] is not in the paper's table, which gives {known}")
     for side in ("low", "high"):
         bounds = [getattr(parameter, side) for parameter in plan.parameters]
         try:
