@@ -2,10 +2,12 @@
 
 from typing import NamedTuple
 
-CHASSIS_IMU = "chassis/imu"
-POWERTRAIN_IMU = "powertrain/imu"
+IMU = "/imu"  # ends the topic of every sensor, after its name
+CHASSIS_IMU = f"chassis{IMU}"
+POWERTRAIN_IMU = f"powertrain{IMU}"
 COIL_CURRENT = "coil_current"
 MOUNT_STATE = "mount_state"
+MOUNT_DESCRIPTION = "mount_description"
 ODOMETRY = "odometry"
 ROAD_PROFILE = "road_profile"
 VEHICLE_DESCRIPTION = "vehicle_description"
@@ -17,6 +19,7 @@ DIAGNOSTICS = "/diagnostics"
 IMU_TYPE = "sensor_msgs/msg/Imu"
 COIL_CURRENT_TYPE = "trackvib_msgs/msg/CoilCurrent"
 MOUNT_STATE_TYPE = "trackvib_msgs/msg/MountState"
+MOUNT_DESCRIPTION_TYPE = "trackvib_msgs/msg/MountDescription"
 ODOMETRY_TYPE = "nav_msgs/msg/Odometry"
 ROAD_PROFILE_TYPE = "trackvib_msgs/msg/RoadProfile"
 VEHICLE_DESCRIPTION_TYPE = "std_msgs/msg/String"
@@ -24,8 +27,8 @@ CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
 DIAGNOSTICS_TYPE = "diagnostic_msgs/msg/DiagnosticArray"
 RECORDED_TYPE = "builtin_interfaces/msg/Time"
 
-CHASSIS_FRAME = "chassis_imu_link"
-POWERTRAIN_FRAME = "powertrain_imu_link"
+IMU_FRAME = "_imu_link"  # ends the frame of every sensor, likewise
+CHASSIS_FRAME = f"chassis{IMU_FRAME}"
 HULL_FRAME = "base_link"
 ROAD_FRAME = "odom"
 
@@ -56,18 +59,32 @@ TOPICS = (
         "Upper (powertrain) end of the mounts, likewise.",
     ),
     Topic(
+        f"*{IMU}",
+        IMU_TYPE,
+        "simulator",
+        "1 kHz over the sensor's divisor",
+        "Each further sensor of the vehicle file by its name, mean over its periods.",
+    ),
+    Topic(
         COIL_CURRENT,
         COIL_CURRENT_TYPE,
         "controller",
         "1 kHz",
-        "The answer: demanded current of both coils, and the stamp of the sample that it answers.",
+        "The answer: demanded current of each coil, and the stamp of the sample that it answers.",
     ),
     Topic(
         MOUNT_STATE,
         MOUNT_STATE_TYPE,
         "simulator",
         "1 kHz",
-        "Current, stiffness, damping, deflection, velocity, force and dissipated power of both mounts.",
+        "Current in each coil; stiffness, damping, deflection, velocity, force and dissipated power of each mount.",
+    ),
+    Topic(
+        MOUNT_DESCRIPTION,
+        MOUNT_DESCRIPTION_TYPE,
+        "simulator",
+        "once",
+        "The mounts by name, kind and place; how many coils there are.",
     ),
     Topic(ODOMETRY, ODOMETRY_TYPE, "simulator", "100 Hz", "Pose and velocity of the hull."),
     Topic(

@@ -31,7 +31,8 @@ def write_bag(path, periods, space="/", topics=tuple(TYPES), frames=("chassis_im
         bag.add_topic(f"{space}{end}", TYPES[end], [], "")
     bag.add_provenance("parameters of /simulator", {"speed": 10.0, "engine_speed": 1650.0})
     translators = [ImuMessage(frame) for frame in frames]
-    powertrain, mounts, sample = ImuMessage("powertrain_imu_link"), MountMessage(), new_mount_sample()
+    powertrain, sample = ImuMessage("powertrain_imu_link"), new_mount_sample()
+    mounts = MountMessage(sample)
 
     def write(end, stamp, data):
         if end in topics:

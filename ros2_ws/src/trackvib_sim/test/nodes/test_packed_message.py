@@ -35,7 +35,7 @@ def test_mount_state(stamp, seed):
     random, sample = np.random.default_rng(seed), new_mount_sample()
     for values in sample:
         values[...] = random.normal(size=values.shape)
-    message = deserialize_message(MountMessage().fill(stamp, sample), MountState)
+    message = deserialize_message(MountMessage(sample).fill(stamp, sample), MountState)
     assert message.header.stamp.sec * 10**9 + message.header.stamp.nanosec == stamp
     for name, values in sample._asdict().items():
         found = getattr(message, name)

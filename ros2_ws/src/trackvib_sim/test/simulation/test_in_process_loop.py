@@ -87,7 +87,7 @@ def test_sensors_are_those_of_an_inertial_navigator(simulation, rough, easy_teet
     def truth():
         update_motion(moving.system.tree, moving.state.tree, motion)
         turns, velocities = [], []
-        for body, place in zip(moving.sensors.body, moving.sensors.place, strict=True):
+        for body, place in zip(moving.points.body, moving.points.place, strict=True):
             turns.append(Rotation.from_matrix(np.reshape(rotation(motion, body), (3, 3))))
             velocities.append(point_velocity(motion, body, point_place(motion, body, tuple(place))))
         return turns, np.array(velocities)

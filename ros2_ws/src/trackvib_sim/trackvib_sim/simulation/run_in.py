@@ -38,7 +38,7 @@ def run_in(vehicle, system, settings):
     road = Road(int(-_BEHIND / _SPACING), _SPACING, np.zeros((2, samples)))
     sensors = Sensors(np.zeros(0, int), np.zeros((0, 3)))
     steps = round(DURATION / system.dt)
-    demanded = np.full(2, settings.passive_current)
+    demanded = np.full(state.coils.current.shape, settings.passive_current)
     status = advance(system, state, road, demanded, steps, work, sensors, new_sample(sensors))
     if status != Status.GOOD:
         raise CannotRoll(

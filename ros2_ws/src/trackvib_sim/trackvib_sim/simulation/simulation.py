@@ -5,11 +5,13 @@ from copy import deepcopy
 from typing import NamedTuple
 
 import numpy as np
+from mr_mount_controller.mounting import Kind, Mount, Mounting
 
 from ..numerics.units import NANO
 from ..road.store import RoadStore
 from ..vehicle.parameters import Vehicle
 from ..vehicle.system import body_rows, build_system, new_work
+from .readings import Sensor
 from .run_in import run_in
 from .settings import RunSettings
 from .step import REASONS, Sensors, Status, advance_many, control_periods, new_sample, observe
@@ -51,7 +53,12 @@ class Simulation:
     ----------
     sample : step.Sample
         Of the last control period; rows `CHASSIS` and `POWERTRAIN` are the two ends of the mounts, in the middle
-        between left and right; the probes follow. Before the first period only its state, not its means, is filled.
+        between left and right; further sensors and the probes follow. Before the first period only its state, not its
+        means, is filled.
+    sensors : tuple of readings.Sensor
+        Those that are published, in the order of the sample's rows.
+    mounting : mr_mount_controller.mounting.Mounting
+        The mounts in the order of the sample, and how many coils there are.
     state : vehicle.system.State
     road : road.store.RoadStore
         To be filled by the caller, as far ahead as `road_is_enough` asks.
@@ -74,7 +81,9 @@ class Simulation:
         self._initial = run_in(vehicle, self.system, settings)
         mounts = self.system.mounts
         rows = body_rows(vehicle, self.system.tree)
-        self.sensors = Sensors(
+        self.sensors = (Sensor("chassis", 1), Sensor("powertrain", 1))
+        self.mounting = _mounting(mounts)
+        self.points = Sensors(
             np.array([mounts.hull, mounts.powertrain, *(rows[probe.body] for probe in probes)]),
             np.stack((mounts.lower.mean(0), mounts.upper.mean(0), *(probe.place for probe in probes))),
         )
@@ -88,9 +97,9 @@ class Simulation:
         self.state = deepcopy(self._initial)
         self.road = RoadStore()
         self.periods = 0
-        self.sample, self._next = new_sample(self.sensors), new_sample(self.sensors)
+        self.sample, self._next = new_sample(self.points), new_sample(self.points)
         self._work = new_work(self.system)
-        self._demanded = np.zeros(2)
+        self._demanded = np.zeros(self.mounting.coils)
         observe(self.system, self.state, self._work.motion, self.sample)
 
     @property
@@ -108,7 +117,7 @@ class Simulation:
         return self._road_around(1) is not None
 
     def advance(self, demanded):
-        """Do one control period with the demanded currents (2,) [A].
+        """Do one control period with the demanded current of each coil [A].
 
         Raises
         ------
@@ -126,7 +135,7 @@ class Simulation:
         if road is not self._held:
             steps = self.settings.rates.steps
             self._statuses = control_periods(
-                self.system, self.state, road, self._demanded, steps, self._work, self.sensors, self._next, self.sample
+                self.system, self.state, road, self._demanded, steps, self._work, self.points, self._next, self.sample
             )
             self._held = road
 
@@ -143,7 +152,7 @@ class Simulation:
             demanded,
             self.settings.rates.steps,
             self._work,
-            self.sensors,
+            self.points,
             self.sample,
             force,
             speed,
@@ -158,3 +167,10 @@ class Simulation:
     def _road_around(self, periods):
         ahead = 1.5 * periods * self.settings.operation.speed / self.settings.rates.control
         return self.road.around(self.distance - self._reach, self.distance + self._reach + ahead)
+
+
+def _mounting(mounts):
+    """Return the `Mounting` of the two mounts, left and right, of a powertrain that pitches on a hinge."""
+    places = (mounts.lower - mounts.lower.mean(0)).tolist()
+    pair = [Mount(name, Kind.MR, tuple(place)) for name, place in zip(("left", "right"), places, strict=True)]
+    return Mounting(tuple(pair), (False, True, False))

@@ -131,7 +131,7 @@ def end_step(system, state, road, work, sensors, sample, share):
 
 @kernel
 def advance(system, state, road, demanded, steps, work, sensors, sample):
-    """Advance the vehicle by one control period of `steps` physics steps with constant demanded currents (2,) [A].
+    """Advance the vehicle by one control period of `steps` physics steps with constant demanded currents (coils,) [A].
 
     Fills `sample` with the period's means. Returns `GOOD`, or at once what made the state leave the valid range.
     """
