@@ -46,7 +46,7 @@ class ClippedOptimal(DampingLaw):
         self._coils = [self.soft_current] * self.mounting.coils
 
     def currents(self, motion, sample):
-        """Return the current of each coil, or one if all move alike."""
+        """Return the current of each coil, or one if turning moves none."""
         self._follow(motion)
         currents = super().currents(motion, sample)
         wanted = currents if isinstance(currents, list) else [currents] * len(self._coils)

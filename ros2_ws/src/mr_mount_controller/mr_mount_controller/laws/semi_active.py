@@ -42,16 +42,19 @@ class SemiActiveLaw(ControlLaw):
         self._estimator = MotionEstimator(self.period, self.corner)
         self._levers = levers(self.mounting)
         self._different = sorted(set(self._levers))
+        self._alike = self._different == [(0.0, 0.0)]
 
     def update(self, sample):
-        """Return the current of each coil, or one if all move alike."""
+        """Return the current of each coil, or one if turning moves none."""
         return self.currents(self._estimator.update(sample), sample)
 
     def currents(self, motion, sample):
         """Return the same, given the `estimator.Motion` at the sensors."""
+        if self._alike:
+            return self.current_for(motion)
         x, y = turning(sample)
         found = {(a, b): self.current_for(motion.beside(a * x + b * y)) for a, b in self._different}
-        return next(iter(found.values())) if len(found) == 1 else [found[lever] for lever in self._levers]
+        return [found[lever] for lever in self._levers]
 
     def current_for(self, motion):
         """Return the current [A] of a mount in a state of `estimator.Motion`."""
