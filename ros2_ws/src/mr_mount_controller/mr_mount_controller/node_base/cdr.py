@@ -214,7 +214,7 @@ class _Walk:
         """Return place and format of a field."""
         found = [run for run in self._numbers if f"{run[0]}.".startswith(f"{name}.")]
         if not found:
-            raise LayoutError(f"there is no field {name}")
+            raise LayoutError(f"field {name} has no numbers")
         there = sum(count for *_, count in found)
         if -1 in shape:
             shape = (there // int(np.prod(shape[1:], dtype=int)), *shape[1:])

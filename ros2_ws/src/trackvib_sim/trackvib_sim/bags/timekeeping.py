@@ -26,7 +26,7 @@ class Timekeeping:
         self.latest = 0  # ns, of all stamps so far
         self._doubted = {}  # topic -> latest stamp far ahead of all others, ns
         self._keepers = {}  # topic -> latest stamp, ns
-        self._paced = {}  # topic that comes every period, or every so many periods -> its latest step, ns
+        self._paced = {}  # topic that comes every period, or every so many periods -> its least step, ns
         self._types = set()  # of the topics that are recorded
         self._answered = 0  # ns, latest stamp of an answer
 
@@ -70,7 +70,8 @@ class Timekeeping:
         if stamp < self._keepers.get(topic, 0) + least_step:
             return None
         if type_name in _EVERY_PERIOD:
-            self._paced[topic] = stamp - self._keepers.get(topic, 0)
+            step = stamp - self._keepers.get(topic, 0)
+            self._paced[topic] = min(step, self._paced.get(topic, step))
         self._keepers[topic] = stamp
         self.latest = max(self.latest, stamp)
         return stamp

@@ -6,6 +6,7 @@ from mr_mount_controller.node_base.cdr import LayoutError
 from mr_mount_controller.node_base.definitions import installed_definition
 from rclpy.serialization import serialize_message
 from rosbags.interfaces import MessageDefinitionFormat
+from rosbags.serde import SerdeError
 from rosidl_parser.definition import AbstractNestedType, NamespacedType
 
 from ..bags.definitions import Definition
@@ -30,10 +31,11 @@ def renewal(connection, kind):
 
 
 def _renewed(definition, kind, data):
-    message = definition.message(data)
     try:
-        return serialize_message(_copied(message, kind))
-    except (AssertionError, TypeError, ValueError, OverflowError) as error:
+        return serialize_message(_copied(definition.message(data), kind))
+    except LayoutError:
+        raise
+    except (SerdeError, AssertionError, TypeError, ValueError, OverflowError) as error:
         raise LayoutError(f"message does not fit the installed type: {error}") from None
 
 
