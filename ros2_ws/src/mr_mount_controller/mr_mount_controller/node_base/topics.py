@@ -2,9 +2,9 @@
 
 from typing import NamedTuple
 
-IMU = "/imu"  # ends the topic of every sensor, after its name
-CHASSIS_IMU = f"chassis{IMU}"
-POWERTRAIN_IMU = f"powertrain{IMU}"
+CHASSIS_IMU = "chassis/imu"
+POWERTRAIN_IMU = "powertrain/imu"
+FURTHER_IMU = "*/imu"  # see `imu_topic`
 COIL_CURRENT = "coil_current"
 MOUNT_STATE = "mount_state"
 MOUNT_DESCRIPTION = "mount_description"
@@ -27,10 +27,19 @@ CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
 DIAGNOSTICS_TYPE = "diagnostic_msgs/msg/DiagnosticArray"
 RECORDED_TYPE = "builtin_interfaces/msg/Time"
 
-IMU_FRAME = "_imu_link"  # ends the frame of every sensor, likewise
-CHASSIS_FRAME = f"chassis{IMU_FRAME}"
+CHASSIS_FRAME = "chassis_imu_link"
 HULL_FRAME = "base_link"
 ROAD_FRAME = "odom"
+
+
+def imu_topic(sensor):
+    """Return the topic of a sensor by its name."""
+    return f"{sensor}/imu"
+
+
+def imu_frame(sensor):
+    """Return the frame of a sensor by its name."""
+    return f"{sensor}_imu_link"
 
 
 class Topic(NamedTuple):
@@ -59,7 +68,7 @@ TOPICS = (
         "Upper (powertrain) end of the mounts, likewise.",
     ),
     Topic(
-        f"*{IMU}",
+        FURTHER_IMU,
         IMU_TYPE,
         "simulator",
         "1 kHz over the sensor's divisor",

@@ -32,7 +32,7 @@ def missing(recording):
     ]
     for name, sensor in recording.sensors.items():  # each reads every so many periods
         due = stamps[stamps % period_of(sensor.stamp) == 0] if len(sensor.stamp) > 1 else sensor.stamp
-        lacking.append(_samples(f"{name}{topics.IMU}", due, sensor.stamp))
+        lacking.append(_samples(topics.imu_topic(name), due, sensor.stamp))
     return list(filter(None, (*lacking, _answers(recording.answers, stamps, counts), _road(recording))))
 
 

@@ -52,7 +52,7 @@ _RARE = {  # read message by message
     topics.ROAD_PROFILE: topics.ROAD_PROFILE_TYPE,
 }
 _TYPES = {end: columns.type_name for end, columns in COLUMNS.items()} | _RARE
-_FURTHER = topics.IMU  # stands for the end of every further sensor's topic
+_FURTHER = topics.imu_topic("")  # stands for the end of every further sensor's topic
 _MOST_FURTHER = 100
 _ANSWERS = ("accepted", "late", "duplicate", "not_finite")  # to samples that were out, among the diagnostics
 # a definition that is damaged or not the one we know gives the others where it is applied
@@ -198,7 +198,7 @@ class _Reading:
             answers = self._columns[chosen[topics.COIL_CURRENT]].columns(fits)
             columns[topics.COIL_CURRENT] = answers if fits(answers) else None
         sensors = self._sensors(space)
-        chosen |= {f"{name}{topics.IMU}": f"{space}{name}{topics.IMU}" for name in sensors}
+        chosen |= {topics.imu_topic(name): f"{space}{topics.imu_topic(name)}" for name in sensors}
         # the first word of the next run may be among the last ones of this
         counts = np.array(sorted(self._loop_counts), np.int64).reshape(-1, 3)
         return Recording(
@@ -224,8 +224,8 @@ class _Reading:
         """Return what further sensors there are beside chassis and powertrain, by name."""
         found = {}
         for topic in sorted(self._further):
-            name = topic.removeprefix(space).removesuffix(topics.IMU)
-            if "/" not in name and topic == f"{space}{name}{topics.IMU}":
+            name = topic.removeprefix(space).removesuffix(_FURTHER)
+            if "/" not in name and topic == f"{space}{topics.imu_topic(name)}":
                 found[name] = self._further[topic].columns()
         return found
 

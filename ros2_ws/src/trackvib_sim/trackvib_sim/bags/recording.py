@@ -96,7 +96,7 @@ class Recording(NamedTuple):
             topics.MOUNT_STATE: self.mounts,
             topics.COIL_CURRENT: self.answers,
             topics.ODOMETRY: self.odometry,
-            **{f"{name}{topics.IMU}": sensor for name, sensor in self.sensors.items()},
+            **{topics.imu_topic(name): sensor for name, sensor in self.sensors.items()},
         }
         return {end: columns for end, columns in parts.items() if columns is not None}
 

@@ -29,11 +29,12 @@ class SimulatorOutput:
         rates = simulation.settings.rates
         self._periods_an_odometry = rates.control // rates.odometry
         self._readings, sensors = Readings(simulation), [sensor.name for sensor in simulation.sensors]
-        self._imus = {sensor: ImuMessage(f"{sensor}{topics.IMU_FRAME}") for sensor in sensors}
+        self._imus = {sensor: ImuMessage(topics.imu_frame(sensor)) for sensor in sensors}
         self._mounts, self._odometry, self._time = MountMessage(simulation.sample.mounts), OdometryMessage(), Clock()
         # whoever waits for chassis and powertrain finds the others there as well
         self._imu_out = {
-            sensor: node.create_publisher(Imu, f"{sensor}{topics.IMU}", LOOP_WRITER_QOS) for sensor in reversed(sensors)
+            sensor: node.create_publisher(Imu, topics.imu_topic(sensor), LOOP_WRITER_QOS)
+            for sensor in reversed(sensors)
         }
         self._loop_out = [self._imu_out[sensor] for sensor in sensors[: POWERTRAIN + 1]]
         self._mount_out = node.create_publisher(MountState, topics.MOUNT_STATE, LOOP_WRITER_QOS)

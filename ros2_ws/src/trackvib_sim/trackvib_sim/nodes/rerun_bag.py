@@ -22,7 +22,7 @@ class RerunBag:
         self._periods_an_odometry = rates.control // rates.odometry
         self._periods_a_diagnosis = rates.control // DIAGNOSTICS_RATE
         self._readings = Readings(simulation)
-        self._imus = {name: ImuMessage(f"{name}{topics.IMU_FRAME}") for name, _ in simulation.sensors}
+        self._imus = {name: ImuMessage(topics.imu_frame(name)) for name, _ in simulation.sensors}
         self._mounts, self._odometry = MountMessage(simulation.sample.mounts), OdometryMessage()
         self._clock, self._answer = Clock(), CoilCurrent()
 
@@ -35,7 +35,7 @@ class RerunBag:
         simulation = self._simulation
         stamp, sample = simulation.time, simulation.sample
         for sensor, reading in self._readings.take().items():
-            self._write(f"{sensor}{topics.IMU}", self._imus[sensor].fill(stamp, *reading))
+            self._write(topics.imu_topic(sensor), self._imus[sensor].fill(stamp, *reading))
         self._write(topics.MOUNT_STATE, self._mounts.fill(stamp, sample.mounts))
         if simulation.periods % self._periods_an_odometry == 0:
             self._write_odometry()
