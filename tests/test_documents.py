@@ -48,7 +48,7 @@ def test_every_topic_has_its_row():
 
 @pytest.mark.system
 def test_topics_have_the_types_that_travel(recorded_run):
-    """The bag of a run holds every topic but the recorder's own words and further sensors, with the type and from the node in the table."""
+    """The bag of a run holds every topic of the table, with its type, but the recorder's own words and more sensors."""
     described = {topic.name.removeprefix("/"): topic.type for topic in topics.TOPICS}
     for absent in (topics.RECORDED, topics.RECORDED_ANSWERS, topics.FURTHER_IMU):
         del described[absent]
