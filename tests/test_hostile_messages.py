@@ -8,6 +8,7 @@ from struct import pack_into
 import pytest
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Vector3
+from mr_mount_controller.mounting import PAIR, undescribed
 from mr_mount_controller.node_base.qos import LATCHED_QOS, LOOP_WRITER_QOS, ROAD_QOS
 from nav_msgs.msg import Odometry
 from rclpy.qos import QoSProfile
@@ -15,10 +16,10 @@ from rclpy.serialization import deserialize_message, serialize_message
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu
 from std_msgs.msg import String
-from trackvib_msgs.msg import CoilCurrent, RoadProfile
+from trackvib_msgs.msg import CoilCurrent, MountDescription, RoadProfile
 from trackvib_sim.bags.raw_messages import RawMessage, raw_records
 from trackvib_sim.bags.reading import read_recording
-from trackvib_sim.nodes.messages import ImuMessage
+from trackvib_sim.nodes.messages import ImuMessage, mount_description
 
 pytestmark = [pytest.mark.system, pytest.mark.slow(reason="real processes that are sent what nobody expects")]
 
@@ -31,6 +32,7 @@ LOOP = (  # topic, a message, quality of service
     ("road_profile", RoadProfile(left=[0.0] * 3, right=[0.0] * 3), ROAD_QOS),
     ("odometry", Odometry(), LATCHED_QOS),
     ("vehicle_description", String(data="text"), LATCHED_QOS),
+    ("mount_description", mount_description(PAIR), LATCHED_QOS),
     ("/clock", Clock(), QoSProfile(depth=10)),
     ("recorder/recorded", Time(), LATCHED_QOS),
 )
@@ -91,6 +93,7 @@ def test_loop_of_all_nodes(start_node, observer, tmp_path):
     send_damaged(observer, "recorder/recorded", [simulator])
     send_damaged(observer, "odometry", [road, recorder])
     send_damaged(observer, "vehicle_description", [recorder])
+    send_damaged(observer, "mount_description", [controller, recorder])
     observer.wait_until(lambda: int(observer.values.get("refused", 0)) >= 4)
     time = float(observer.values["time"])
     observer.wait_until(lambda: float(observer.values["time"]) > time + 0.5)
@@ -149,7 +152,7 @@ def test_controller_takes_no_number_that_no_sensor_measures(start_node, observer
     """The pair that has one is as if it had not come; the next one is answered."""
     answers = observer.collect(CoilCurrent, "coil_current", LOOP_WRITER_QOS)
     outs = [observer.node.create_publisher(Imu, f"{part}/imu", LOOP_WRITER_QOS) for part in ("chassis", "powertrain")]
-    controller = start_node("controller", law="skyhook")
+    controller = start_node("controller", law="skyhook", coils=2)
     for out in outs:
         observer.wait_until(out.get_subscription_count)
     imu = ImuMessage("imu")
@@ -207,3 +210,52 @@ def test_one_message_is_no_second_clock(start_node, observer):
 
     observer.wait_until(has_given_way)
     assert "error: another simulator drives /clock" in simulator.output
+
+
+def test_controller_takes_no_description_that_makes_no_sense(start_node, observer):
+    """It says why, and goes on with the one before: answers keep their number."""
+    answers = observer.collect(CoilCurrent, "coil_current", LOOP_WRITER_QOS)
+    outs = [observer.node.create_publisher(Imu, f"{part}/imu", LOOP_WRITER_QOS) for part in ("chassis", "powertrain")]
+    told = observer.node.create_publisher(MountDescription, "mount_description", LATCHED_QOS)
+    controller = start_node("controller", law="skyhook")
+    for out in (*outs, told):
+        observer.wait_until(out.get_subscription_count)
+
+    def answered_after(stamp):
+        for out in outs:
+            out.publish(ImuMessage("imu").fill(stamp * MS, (0.0, 0.0, 9.81), (0.0, 0.0, 0.0)))
+        latest = lambda: deserialize_message(answers[-1], CoilCurrent)  # noqa: E731
+        observer.wait_until(lambda: answers and latest().sample_stamp.nanosec == stamp * MS)
+        return len(latest().current)
+
+    controller.wait_for("waiting for accelerations and mount_description")
+    told.publish(mount_description(undescribed(4)))
+    controller.wait_for("coils: mount 1, mount 2, mount 3, mount 4")
+    assert answered_after(1) == 4
+    twice = mount_description(undescribed(3))
+    twice.mounts[1].name = "mount 1"
+    told.publish(twice)
+    controller.wait_for("refused: mounts are called mount 1, mount 1, mount 3, accepted are names that differ")
+    assert answered_after(2) == 4
+    told.publish(mount_description(undescribed(16, 20)))
+    controller.wait_for("mount 16")
+    assert answered_after(3) == 16
+    assert_in_good_health(controller)
+
+
+def test_an_answer_of_another_number_is_refused(start_node, observer, tmp_path):
+    """The simulator counts it and falls silent; the bag holds it and is read all the same."""
+    publisher = observer.node.create_publisher(CoilCurrent, "coil_current", LOOP_WRITER_QOS)
+    start_node("road_excitation"), start_node("controller")
+    recorder = start_node("recorder", bag=tmp_path / "bag")
+    simulator = start_node("simulator", wait_for_recorder=True, answer_timeout=20.0, duration=1.0)
+    observer.wait_for(state="running")
+    for currents in ([], [1.0], [1.0] * 3, [1.0] * 16):
+        publisher.publish(CoilCurrent(current=currents))
+    simulator.wait_for("message on /coil_current refused: field current has")
+    assert simulator.wait() == 0, simulator.output
+    recorder.signal(signal.SIGINT)
+    assert recorder.wait() == 0, recorder.output
+    recording = read_recording(tmp_path / "bag")
+    assert recording.answers.current.shape == (1000, 2)
+    assert recording.counts["/coil_current"] == 1004

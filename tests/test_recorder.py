@@ -209,7 +209,7 @@ def test_bag_says_what_made_it(start_node, start, tmp_path):
 def test_progress_is_that_of_the_slowest_topic(start_node, observer, tmp_path):
     """A recorder that has all accelerations but lacks mount states tells how far it has both."""
     node = observer.node
-    imus, mounts, told = ImuMessage("imu"), MountMessage(), []
+    imus, mounts, told = ImuMessage("imu"), MountMessage(new_mount_sample()), []
     imu_out = node.create_publisher(Imu, "chassis/imu", LOOP_WRITER_QOS)
     mount_out = node.create_publisher(MountState, "mount_state", LOOP_WRITER_QOS)
     node.create_subscription(Time, "recorder/recorded", lambda time: told.append(time.nanosec // MS), LATCHED_QOS)

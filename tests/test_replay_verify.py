@@ -35,7 +35,7 @@ def test_a_recorded_run_comes_out_again(start_cli, recorded_run):
     [
         ("/chassis/imu", -88, 1, "at t = 2.000 s linear_acceleration.y of /chassis/imu"),
         ("/powertrain/imu", -192, 1, "at t = 2.000 s angular_velocity.x of /powertrain/imu"),
-        ("/mount_state", -24, 1, "at t = 2.000 s force.right.z of /mount_state"),
+        ("/mount_state", -32, 1, "at t = 2.000 s force.right.z of /mount_state"),
         ("/mount_state", -1, 128, "at t = 2.000 s dissipated_power.right of /mount_state"),
         ("/coil_current", -10, 1, "at t = 2.001 s current.left of /mount_state"),
     ],

@@ -22,7 +22,7 @@ class BusyFirm(ControlLaw):
         self._mean_square = 0.0
 
     def update(self, sample):
-        """Return the current of both mounts [A]."""
+        """Return the current of all coils [A]."""
         velocity = self._motion.update(sample).relative_velocity
         self._mean_square = self._decay * self._mean_square + (1.0 - self._decay) * velocity**2
         return min(0.8 + self.slope * sqrt(self._mean_square), 3.0)

@@ -20,7 +20,7 @@ class OwnNode(Node):
 
     def _answer(self, imu):
         current = self._firm if imu.linear_acceleration.z > 9.81 else 0.8
-        # the stamp tells which sample is answered; the simulator waits for just that
+        # the stamp tells which sample is answered; the simulator waits for just that, with one current a coil
         answer = CoilCurrent(header=imu.header, sample_stamp=imu.header.stamp, current=[current, current])
         self._currents.publish(answer)
 

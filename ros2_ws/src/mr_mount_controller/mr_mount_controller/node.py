@@ -2,26 +2,29 @@
 
 import sys
 import time
+from array import array
 from typing import NamedTuple
 
 from rclpy.duration import Duration
 from sensor_msgs.msg import Imu
-from trackvib_msgs.msg import CoilCurrent
+from trackvib_msgs.msg import CoilCurrent, MountDescription
 
 from .laws import find_law
 from .laws.base import LawError, Sample, answer
+from .mounting import MOST_COILS, described, undescribed
 from .node_base.cdr import NANO
 from .node_base.listener import Refused
 from .node_base.loop_node import LoopNode, NodeError, run_node
 from .node_base.packed_message import MessageReader
 from .node_base.parameters import Parameter, ParameterError
 from .node_base.patience import Patience
-from .node_base.qos import LOOP_QOS, LOOP_WRITER_QOS
-from .node_base.topics import CHASSIS_IMU, COIL_CURRENT, POWERTRAIN_IMU
+from .node_base.qos import LATCHED_QOS, LOOP_QOS, LOOP_WRITER_QOS
+from .node_base.topics import CHASSIS_IMU, COIL_CURRENT, MOUNT_DESCRIPTION, POWERTRAIN_IMU
 
 PARAMETERS = (
     Parameter("law", "passive", "Control law: a known name, or package.module:Class."),
     Parameter("sample_rate", 1000, "Rate of the Imu messages.", "Hz", 10, 10000),
+    Parameter("coils", 0, f"Number of coils; 0: as {MOUNT_DESCRIPTION} tells, for which it waits.", "", 0, MOST_COILS),
     Parameter("wait_for_recorder", False, "Answer nothing before a recorder listens to the currents, too."),
 )
 _PATIENCE = 10.0  # s of wall time for those who shall hear the answers
@@ -63,14 +66,21 @@ class ControllerNode(LoopNode):
         self._steps = self._gaps = 0  # between samples, and those among them that were not one period
         self._answer = CoilCurrent()
         self._stamp = self._answer.header.stamp = self._answer.sample_stamp
+        self._mounting = None  # not known yet
+        self._missed = False  # whether somebody was told so
         self._currents = self.create_publisher(CoilCurrent, COIL_CURRENT, LOOP_WRITER_QOS)
         for topic, on_imu in ((CHASSIS_IMU, self._on_chassis), (POWERTRAIN_IMU, self._on_powertrain)):
             imu = MessageReader(Imu, "header.stamp", {"angular_velocity": 3, "linear_acceleration": 3})
             self.listen(Imu, topic, on_imu, LOOP_QOS, imu.read)
+        if self.settings["coils"]:
+            self._begin_on(undescribed(self.settings["coils"]))
+        else:
+            self.listen(MountDescription, MOUNT_DESCRIPTION, self._on_description, LATCHED_QOS)
 
     def run(self):
         """Say what runs, wait for a simulator or vehicle, answer until told to stop."""
-        self.get_logger().info(f"law '{self.settings['law']}', waiting for accelerations")
+        described_too = "" if self.settings["coils"] else f" and {MOUNT_DESCRIPTION}"
+        self.get_logger().info(f"law '{self.settings['law']}', waiting for accelerations{described_too}")
         super().run()
 
     def close(self):
@@ -78,6 +88,20 @@ class ControllerNode(LoopNode):
         self._currents.wait_for_all_acked(Duration(seconds=1))
         if self._gaps:
             self.get_logger().warning(f"{self._gaps} gaps between the stamps of the samples")
+
+    def _on_description(self, message):
+        try:
+            mounting = described(message)
+        except ValueError as error:
+            raise Refused(str(error)) from None
+        if mounting != self._mounting:  # else a simulator says it again
+            self._begin_on(mounting)
+            self._pair()
+
+    def _begin_on(self, mounting):
+        self._mounting, self._last, self._sample = mounting, None, None
+        self._law.run_on(mounting)
+        self.get_logger().info(f"coils: {', '.join(mounting.names[: mounting.coils]) or 'none'}")
 
     def _on_chassis(self, imu):
         self._chassis = _reading(imu)
@@ -90,6 +114,9 @@ class ControllerNode(LoopNode):
     def _pair(self):
         chassis, powertrain = self._chassis, self._powertrain
         if chassis is None or powertrain is None or chassis.stamp != powertrain.stamp:
+            return
+        if self._mounting is None:
+            self._miss_description()
             return
         self._chassis = self._powertrain = None
         stamp = chassis.stamp
@@ -115,8 +142,16 @@ class ControllerNode(LoopNode):
         except LawError as error:
             raise NodeError(str(error)) from None
         self._stamp.sec, self._stamp.nanosec = divmod(stamp, NANO)
-        self._answer.current = currents
+        self._answer.current = array("d", currents.tobytes())
         self._currents.publish(self._answer)
+
+    def _miss_description(self):
+        if not self._missed:
+            self._missed = True
+            self.get_logger().warning(
+                f"accelerations come, but nobody tells on {MOUNT_DESCRIPTION} how many coils there are; where nobody "
+                "does, parameter coils does"
+            )
 
     def _check_step(self, step):
         """Count a gap between samples; raise `NodeError` if they come at another rate altogether."""

@@ -12,14 +12,14 @@ from mr_mount_controller.laws.clipped_optimal import (
     regulator_gain,
     weights,
 )
-from mr_mount_controller.laws.two_mount_model import (
+from mr_mount_controller.laws.mount_model import (
     CENTRE_RATIO,
     HINGE_INERTIA,
     HINGE_STIFFNESS,
     HULL_MASS,
     MOUNTS,
     POWERTRAIN_MASS,
-    two_mount_model,
+    mount_model,
 )
 from mr_mount_controller.mount import damping, stiffness
 from numpy.testing import assert_allclose
@@ -31,7 +31,7 @@ TRAVEL, FORCE = 3e-3, 2e4
 @pytest.fixture(scope="module")
 def model():
     """The model at the soft current of the law."""
-    return two_mount_model(0.8)
+    return mount_model(0.8, 2)
 
 
 def stable_subspace(a, b, q, r, n):
@@ -50,7 +50,7 @@ def stable_subspace(a, b, q, r, n):
 @pytest.mark.parametrize("current", [0.8, 3.0])
 def test_powertrain_alone_has_its_own_frequency(current):
     """With the hull held, by hand: (2 k + K) over the powertrain's inertia at the mounts, and its damping."""
-    model = two_mount_model(current)
+    model = mount_model(current, 2)
     a = model.a[np.ix_([1, 3], [1, 3])]
     inertia = HINGE_INERTIA / MOUNTS[0] ** 2
     # the hull moves a little with it: its mass is 36 t, the coupling r m
@@ -113,7 +113,7 @@ def test_filter_finds_the_motion_of_the_model(sample, source):
     integrates with corners at 0.5 and 2.5 Hz: some 2.5 / 7 of the deflection, less of its rate.
     """
     law = ClippedOptimal(PERIOD, corner=0.2, firm_current=0.8)
-    model, w = two_mount_model(0.8), 2.0 * np.pi * 7.0
+    model, w = mount_model(0.8, 2), 2.0 * np.pi * 7.0
     response = np.linalg.solve(1j * w * np.eye(4) - model.a, model.g[:, [source]] * 3000.0)[:, 0]
     measured = model.c @ response + model.f[:, source] * 3000.0
     errors, sizes = [], []

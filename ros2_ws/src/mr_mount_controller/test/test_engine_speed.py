@@ -5,7 +5,7 @@ import pytest
 from mr_mount_controller.laws.base import Sample
 from mr_mount_controller.laws.engine_order import EngineOrder
 from mr_mount_controller.laws.engine_speed import EngineSpeedEstimator
-from mr_mount_controller.laws.two_mount_model import CENTRE, HINGE_INERTIA, MOUNTS, POWERTRAIN_MASS
+from mr_mount_controller.laws.mount_model import CENTRE, HINGE_INERTIA, MOUNTS, POWERTRAIN_MASS
 
 PERIOD, FINE = 1e-3, 10
 STILL = (0.0, 0.0, 0.0)

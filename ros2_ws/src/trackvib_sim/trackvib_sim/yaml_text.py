@@ -72,7 +72,8 @@ def validated(model, text, name, kinds=None):
     except ValidationError as error:
         errors = error.errors(include_url=False, include_context=False)
     more = [f"{name}: and {len(errors) - _MOST_ERRORS} more items"] if len(errors) > _MOST_ERRORS else []
-    raise YamlTextError("\n".join(map(readable, [_sentence(name, each, kinds or {}) for each in errors[:_MOST_ERRORS]] + more)))
+    sentences = [_sentence(name, each, kinds or {}) for each in errors[:_MOST_ERRORS]]
+    raise YamlTextError("\n".join(map(readable, sentences + more)))
 
 
 def _bounded(text, name, read):

@@ -1,15 +1,18 @@
 """The contract between a control law and whoever runs it."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+
+from ..mounting import PAIR
 
 
 class Sample(NamedTuple):
     """What both inertial sensors measured over one period, in the axes of their bodies (x forward, y left, z up).
 
-    Specific force is acceleration less gravity (REP-145): +9.81 m/s^2 along z at rest. Both sensors sit in the middle
-    between the left and the right mount. All are plain floats, finite, and means over the period.
+    Specific force is acceleration less gravity (REP-145): +9.81 m/s^2 along z at rest. Where the mounts are from there
+    tells `ControlLaw.mounting`. All are plain floats, finite, and means over the period.
 
     Examples
     --------
@@ -20,9 +23,9 @@ class Sample(NamedTuple):
     """
 
     time: float  # s, end of the period; simulated time where a simulator runs, counted from the start of the run
-    chassis_force: tuple  # (3,) specific force at the mounts' lower ends, m/s^2
+    chassis_force: tuple  # (3,) specific force of the hull at the mounts, m/s^2
     chassis_angular_velocity: tuple  # (3,) angular velocity, rad/s
-    powertrain_force: tuple  # (3,) the same at the mounts' upper ends
+    powertrain_force: tuple  # (3,) the same of the powertrain
     powertrain_angular_velocity: tuple
 
 
@@ -50,9 +53,12 @@ class ControlLaw:
         Class attribute: name, default, description, unit and range of each, in the order in which documents list them.
         The node declares them as its own ROS parameters, from which come their checks and what `ros2 param describe`
         says; `docs/controllers.md` is made from the same. A name must be a Python identifier, other than `law`,
-        `sample_rate` and `wait_for_recorder`, which are the node's own, and than the attributes here.
+        `sample_rate`, `coils` and `wait_for_recorder`, which are the node's own, and than the attributes here.
     period : float
         Sampling period [s], from `__init__` on. A law must work at any from 0.1 ms to 0.1 s, if not well at all.
+    mounting : mr_mount_controller.mounting.Mounting
+        The mounts by name, kind and place, the number of coils, and how the powertrain can turn on them. Before
+        `run_on` is called it is the pair of [Tao2025]. A law must work for 0 to 16 coils.
 
     and one attribute for each parameter, with its value.
 
@@ -63,16 +69,17 @@ class ControlLaw:
       `super().__init__(period, **values)` first, which sets the attributes and calls `reset`. Values that do not go
       together it refuses with `ParameterError`; the node then ends with that message.
     * `reset()` is called at the end of the base class's `__init__`, hence before a subclass's own `__init__` goes on,
-      and again whenever the time of the samples starts anew.
+      and again whenever the time of the samples starts anew, or `mounting` changes.
     * `update(sample)` is called once for each sample, in order of time. Samples are one period apart; should one be
       lost, the next comes all the same, its time tells, and the node counts the gap. All calls come from one thread,
       none before `reset`.
 
     What a law must do
     ------------------
-    * `update` returns one finite current [A] for both mounts, or a pair (left, right): floats, ints, or a numpy array
-      of them. Any finite value will do: the driver cuts it to its limits (0 to 5 A on the vehicle that comes with
-      trackvib) and the mounts use 0.7 to 4 A, and what is cut is counted. Anything else ends the run with `LawError`.
+    * `update` returns one finite current [A] for all coils, or as many as there are coils, in their order: floats,
+      ints, or a numpy array of them. Any finite value will do: the driver cuts it to its limits (0 to 5 A on the
+      vehicle that comes with trackvib) and the mounts use 0.7 to 4 A, and what is cut is counted. Anything else ends
+      the run with `LawError`.
       The current takes some 8 ms to build up in the coil.
     * `update` answers soon. In lock-step the simulator waits for it, in real time a late answer is used late: at 1 kHz
       some 0.1 ms are at hand, the laws here take less than some 10 us.
@@ -84,7 +91,7 @@ class ControlLaw:
 
     See Also
     --------
-    estimator.MotionEstimator : velocities at both ends of the mounts
+    estimator.MotionEstimator : velocities at both sensors
     semi_active.OnOffLaw, semi_active.DampingLaw : bases with soft and firm current and estimated motion
 
     Examples
@@ -103,6 +110,7 @@ class ControlLaw:
     """
 
     parameters = ()
+    mounting = PAIR
 
     def __init__(self, period, **values):
         self.period = period
@@ -110,32 +118,38 @@ class ControlLaw:
             setattr(self, parameter.name, values.get(parameter.name, parameter.default))
         self.reset()
 
+    def run_on(self, mounting):
+        """Begin anew on the mounts of a `mounting.Mounting`."""
+        self.mounting = mounting
+        self.reset()
+
     def reset(self):
         """Forget the past."""
 
-    def update(self, sample: Sample) -> float | tuple[float, float] | np.ndarray:
-        """Return the current [A] that answers a `Sample`: one for both mounts or a pair (left, right)."""
+    def update(self, sample: Sample) -> float | Sequence[float] | np.ndarray:
+        """Return the current [A] that answers a `Sample`: one for all coils, or one for each."""
         raise NotImplementedError
 
 
 def answer(law, sample):
-    """Return the law's currents (2,) [A] for a sample.
+    """Return the law's currents, one a coil [A], for a sample.
 
     Raises
     ------
     LawError
-        The law returned something else than one or two finite numbers.
+        The law returned something else than one finite number, or one for each coil.
     """
-    result = law.update(sample)
+    result, coils = law.update(sample), law.mounting.coils
     try:
         numbers = np.asarray(result)
         # digits in a text and truth values are no currents, though numpy would make numbers of them
-        currents = np.broadcast_to(numbers.astype(float) if numbers.dtype.kind in "fiu" else np.nan, (2,))
+        numbers = numbers.astype(float) if numbers.dtype.kind in "fiu" else np.full(1, np.nan)
+        currents = np.broadcast_to(numbers, (coils,))
     except (TypeError, ValueError):
-        currents = np.full(2, np.nan)
-    if not np.isfinite(currents).all():
+        numbers = np.full(1, np.nan)
+    if not np.isfinite(numbers).all():
         raise LawError(
             f"law {type(law).__name__} answered {result!r} at t = {sample.time:.3f} s, "
-            "must be one finite current [A] or a pair of them"
+            f"must be one finite current [A], or {coils} of them, one a coil"
         )
     return currents

@@ -1,4 +1,4 @@
-"""Clipped-optimal control: LQG on the linear two-mount model, and of its force what a mount can give.
+"""Clipped-optimal control: LQG on the linear model of the mounts, and of its force what a mount can give.
 
 [Dyke1996] S. J. Dyke, B. F. Spencer, M. K. Sain, J. D. Carlson, "Modeling and control of magnetorheological dampers for
 seismic response reduction", Smart Mater. Struct. 5 (1996) 565-575: a linear-quadratic regulator with a Kalman filter
@@ -14,18 +14,18 @@ from scipy.linalg import expm, solve, solve_continuous_are
 
 from ..mount import COIL_LAG, damping, stiffness
 from ..node_base.parameters import Parameter
+from .mount_model import DEFLECTION, mount_model
 from .semi_active import SEMI_ACTIVE, DampingLaw
-from .two_mount_model import DEFLECTION, two_mount_model
 
 TRAVEL = Parameter("travel", 3.0e-3, "Deflection that counts as much as 1 m/s^2 of the powertrain.", "m", 1.0e-4, 1.0)
-FORCE = Parameter("force", 2.0e4, "Force of both mounts that counts as much as 1 m/s^2.", "N", 1.0e3, 1.0e6)
+FORCE = Parameter("force", 2.0e4, "Force of all mounts that counts as much as 1 m/s^2.", "N", 1.0e3, 1.0e6)
 
 # spectral densities of white noise, of which only the ratios matter
 ROAD_NOISE = 3.0e3**2  # N^2/Hz
 ENGINE_NOISE = 1.0e3**2  # N^2/Hz
 SENSOR_NOISE = 0.02**2  # (m/s^2)^2/Hz; sets what is too slow for the filter to integrate
 
-_LARGEST_FORCE = 1.0e5  # N, of both mounts; the filter must stay finite at any rate
+_LARGEST_FORCE = 1.0e5  # N, of all mounts; the filter must stay finite at any rate
 _DIGITS = 9  # of the gains: last bits of LAPACK must not reach the currents
 
 
@@ -34,38 +34,43 @@ class ClippedOptimal(DampingLaw):
 
     parameters = (*SEMI_ACTIVE, TRAVEL, FORCE)
 
-    def __init__(self, period, **values):
-        super().__init__(period, **values)
-        model = two_mount_model(self.soft_current)
-        self._gain = _rounded(regulator_gain(model, self.travel, self.force))[0]
-        self._filter = _rounded(discrete_filter(model, kalman_gain(model), period))
-        self._nominal = stiffness(self.soft_current), damping(self.soft_current)
-        self._coil_step = 1.0 - exp(-period / COIL_LAG)
-
     def reset(self):
         """Forget the motion; the coils are taken to be soft."""
         super().reset()
+        model = mount_model(self.soft_current, self.mounting.coils)
+        self._gain = _rounded(regulator_gain(model, self.travel, self.force))[0]
+        self._filter = _rounded(discrete_filter(model, kalman_gain(model), self.period))
+        self._nominal = stiffness(self.soft_current), damping(self.soft_current)
+        self._coil_step = 1.0 - exp(-self.period / COIL_LAG)
         self._state = 0.0, 0.0, 0.0, 0.0
-        self._coil = self.soft_current
+        self._coils = [self.soft_current] * self.mounting.coils
 
-    def update(self, sample):
-        """Return the current."""
-        current = super().update(sample)
-        self._coil += self._coil_step * (current - self._coil)
-        return current
+    def currents(self, motion, sample):
+        """Return the current of each coil, or one if turning moves none."""
+        self._follow(motion)
+        currents = super().currents(motion, sample)
+        wanted = currents if isinstance(currents, list) else [currents] * len(self._coils)
+        self._coils = [coil + self._coil_step * (each - coil) for coil, each in zip(self._coils, wanted, strict=True)]
+        return currents
 
-    def damping_for(self, motion):
-        """Return the damping [N s/m] whose force is that of the regulator."""
+    def _follow(self, motion):
+        """Take the filter a period on from the `estimator.Motion` at the sensors, and the regulator's force from it."""
         _, d, _, d_rate = self._state
         k, c = self._nominal
-        force = -2.0 * ((stiffness(self._coil) - k) * d + (damping(self._coil) - c) * d_rate)
+        force = -sum((stiffness(coil) - k) * d + (damping(coil) - c) * d_rate for coil in self._coils)
         force = min(max(force, -_LARGEST_FORCE), _LARGEST_FORCE)
         self._state = z, d, z_rate, d_rate = _product(
             self._filter, (*self._state, force, motion.acceleration, motion.base_acceleration)
         )
         gain = self._gain
-        wanted = -(gain[0] * z + gain[1] * d + gain[2] * z_rate + gain[3] * d_rate)
-        return c - 0.5 * wanted / d_rate if d_rate != 0.0 else c
+        self._wanted = -(gain[0] * z + gain[1] * d + gain[2] * z_rate + gain[3] * d_rate)
+        self._at_sensors = motion.velocity
+
+    def damping_for(self, motion):
+        """Return the damping [N s/m] of a mount whose force is its share of the regulator's."""
+        rate = self._state[3] + (motion.velocity - self._at_sensors)
+        c = self._nominal[1]
+        return c - self._wanted / len(self._coils) / rate if rate != 0.0 else c
 
 
 class Weights(NamedTuple):

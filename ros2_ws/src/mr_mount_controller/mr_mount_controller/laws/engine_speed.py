@@ -16,7 +16,7 @@ from math import exp, pi
 import numpy as np
 from scipy.signal import butter
 
-from .two_mount_model import CENTRE, HINGE_INERTIA, MOUNTS, POWERTRAIN_MASS
+from .mount_model import CENTRE, HINGE_INERTIA, MOUNTS, POWERTRAIN_MASS
 
 ORDERS = np.array([2.0, 3.0, 6.0])  # of a twelve-cylinder engine, cycles a revolution
 SPEEDS = np.arange(250.0, 2201.0, 10.0)  # r/min

@@ -1,4 +1,4 @@
-"""Velocities at both ends of the mounts, as far as inertial sensors can know them.
+"""Velocities of hull and powertrain, as far as inertial sensors can know them.
 
 A sensor measures specific force: its acceleration and, upwards, gravity, in axes that turn with the body. A vector
 that the angular rate turns against the body, and that slowly follows the specific force, is gravity in body axes (a
@@ -24,7 +24,7 @@ LARGEST_RATE = 100.0  # rad/s
 
 
 class Motion(NamedTuple):
-    """Vertical motion at the mounts, upwards positive, without what is slower than the corner frequency."""
+    """Vertical motion at the sensors or at a mount, upwards positive, without what is slower than the corner."""
 
     acceleration: float  # of the powertrain, m/s^2
     velocity: float  # of the powertrain, m/s
@@ -35,6 +35,10 @@ class Motion(NamedTuple):
     def relative_velocity(self):
         """Velocity across the mounts [m/s], positive where they lengthen."""
         return self.velocity - self.base_velocity
+
+    def beside(self, velocity):
+        """Return the motion at a place where the powertrain's turning against the hull adds a velocity [m/s]."""
+        return self._replace(velocity=self.velocity + velocity)
 
 
 class MotionEstimator:
@@ -58,6 +62,26 @@ class MotionEstimator:
             *self._powertrain.update(sample.powertrain_force, sample.powertrain_angular_velocity),
             *self._chassis.update(sample.chassis_force, sample.chassis_angular_velocity),
         )
+
+
+def levers(mounting):
+    """Return what turning against the hull adds to the powertrain's vertical velocity at each MR mount of a `Mounting`.
+
+    Each is a pair [m], of the angular velocities about x and y; zero where the powertrain cannot turn.
+    """
+    about_x, about_y, _ = mounting.turning
+    places = [mount.place for mount in mounting.mounts[: mounting.coils]]
+    return [(y if about_x else 0.0, -x if about_y else 0.0) for x, y, _ in places]
+
+
+def turning(sample):
+    """Return the angular velocities [rad/s] about x and y of the powertrain against the hull."""
+    rates = zip(sample.powertrain_angular_velocity[:2], sample.chassis_angular_velocity[:2], strict=True)
+    return [_limited(powertrain) - _limited(hull) for powertrain, hull in rates]
+
+
+def _limited(rate):
+    return min(max(rate, -LARGEST_RATE), LARGEST_RATE)
 
 
 class VerticalMotion:
@@ -97,7 +121,7 @@ class VerticalMotion:
 
     def _turned(self, rate):
         """Return gravity in the axes of a body that has turned for a period; Cayley's form keeps its length."""
-        x, y, z = (-self._half_period * min(max(value, -LARGEST_RATE), LARGEST_RATE) for value in rate)
+        x, y, z = (-self._half_period * _limited(value) for value in rate)
         gx, gy, gz = self._gravity
         ux, uy, uz = gx + y * gz - z * gy, gy + z * gx - x * gz, gz + x * gy - y * gx
         part = 2.0 / (1.0 + x * x + y * y + z * z)

@@ -2,14 +2,16 @@
 
 A mount can only dissipate: its damping force is c(I) times the velocity across it, against that velocity. `OnOffLaw`
 chooses between the soft and the firm current; `DampingLaw` asks for a damping and gets what the mount has between the
-two. Both mounts get the same current: the rear hinge lets the powertrain pitch only, so that they move alike. A firm
-mount is a stiffer one as well, which no law can separate.
+two. Each mount gets a current of its own, by the velocity across it: that at the sensors, and what the powertrain's
+turning against the hull makes of the lever to the mount. What the hull's own turning adds at both ends is left out.
+Where the powertrain turns about a hinge only, mounts side by side move alike and get the same current. A firm mount is
+a stiffer one as well, which no law can separate.
 """
 
 from ..mount import HIGHEST_CURRENT, LOWEST_CURRENT, current_for_damping, damping
 from ..node_base.parameters import Parameter, ParameterError
 from .base import ControlLaw
-from .estimator import MotionEstimator
+from .estimator import MotionEstimator, levers, turning
 
 SOFT = Parameter("soft_current", 0.8, "Current of the soft mount.", "A", LOWEST_CURRENT, HIGHEST_CURRENT)
 FIRM = Parameter("firm_current", 3.0, "Current of the firm mount.", "A", LOWEST_CURRENT, HIGHEST_CURRENT)
@@ -23,8 +25,11 @@ def check_currents(soft, firm):
         raise ParameterError(f"parameter 'soft_current' is {soft!r}, accepted is at most firm_current, {firm:g} A")
 
 
-class OnOffLaw(ControlLaw):
-    """Firm while `is_firm(motion)`, else soft."""
+class SemiActiveLaw(ControlLaw):
+    """A current for each mount by the motion there: `current_for(motion)`.
+
+    Mounts that move alike get the same: of them it is asked once a sample.
+    """
 
     parameters = SEMI_ACTIVE
 
@@ -35,33 +40,49 @@ class OnOffLaw(ControlLaw):
     def reset(self):
         """Forget the motion."""
         self._estimator = MotionEstimator(self.period, self.corner)
+        self._levers = levers(self.mounting)
+        self._different = sorted(set(self._levers))
+        self._alike = self._different == [(0.0, 0.0)]
 
     def update(self, sample):
-        """Return the firm or the soft current."""
-        return self.firm_current if self.is_firm(self._estimator.update(sample)) else self.soft_current
+        """Return the current of each coil, or one if turning moves none."""
+        return self.currents(self._estimator.update(sample), sample)
 
-    def is_firm(self, motion):
-        """Return whether the mounts shall be firm in a state of `estimator.Motion`."""
+    def currents(self, motion, sample):
+        """Return the same, given the `estimator.Motion` at the sensors."""
+        if self._alike:
+            return self.current_for(motion)
+        x, y = turning(sample)
+        found = {(a, b): self.current_for(motion.beside(a * x + b * y)) for a, b in self._different}
+        return [found[lever] for lever in self._levers]
+
+    def current_for(self, motion):
+        """Return the current [A] of a mount in a state of `estimator.Motion`."""
         raise NotImplementedError
 
 
-class DampingLaw(ControlLaw):
-    """The current at which a mount comes nearest to `damping_for(motion)`, between soft and firm."""
+class OnOffLaw(SemiActiveLaw):
+    """Firm while `is_firm(motion)`, else soft."""
 
-    parameters = SEMI_ACTIVE
+    def current_for(self, motion):
+        """Return the firm or the soft current."""
+        return self.firm_current if self.is_firm(motion) else self.soft_current
+
+    def is_firm(self, motion):
+        """Return whether a mount shall be firm in a state of `estimator.Motion`."""
+        raise NotImplementedError
+
+
+class DampingLaw(SemiActiveLaw):
+    """The current at which a mount comes nearest to `damping_for(motion)`, between soft and firm."""
 
     def __init__(self, period, **values):
         super().__init__(period, **values)
-        check_currents(self.soft_current, self.firm_current)
         self._softest, self._firmest = damping(self.soft_current), damping(self.firm_current)
 
-    def reset(self):
-        """Forget the motion."""
-        self._estimator = MotionEstimator(self.period, self.corner)
-
-    def update(self, sample):
+    def current_for(self, motion):
         """Return the current."""
-        wanted = self.damping_for(self._estimator.update(sample))
+        wanted = self.damping_for(motion)
         if not wanted > self._softest:  # nor where it is no number
             return self.soft_current
         if wanted >= self._firmest:

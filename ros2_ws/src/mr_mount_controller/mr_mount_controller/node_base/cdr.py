@@ -43,13 +43,27 @@ class Fields:
         self.fields = tuple(fields) or (("structure_needs_at_least_one_member", "B"),)
         self.least = sum(_least(kind) for _, kind in self.fields)
 
+    def __eq__(self, other):
+        return isinstance(other, Fields) and self.fields == other.fields
+
+    __hash__ = None
+
 
 class Repeated:
-    """Kind of an array of `count` elements, or of a sequence (`count` None), which tells its length itself."""
+    """Kind of an array of `count` elements, or of a sequence (`count` None), which tells its length itself.
 
-    def __init__(self, kind, count=None):
-        self.kind, self.count = kind, count
+    A sequence has `most` elements at most, where that is given.
+    """
+
+    def __init__(self, kind, count=None, most=None):
+        self.kind, self.count, self.most = kind, count, most
         self.least = 4 if count is None else count * _least(kind)
+
+    def __eq__(self, other):
+        """Whether elements stand at the same places; how many there may be at most does not tell."""
+        return isinstance(other, Repeated) and (self.kind, self.count) == (other.kind, other.count)
+
+    __hash__ = None
 
 
 class Layout(NamedTuple):
@@ -98,7 +112,7 @@ def find_layout(kind, message, wanted):
     message : bytes
     wanted : dict
         Shape of each field by its name in the message, as `{"twist.twist.linear": (3,)}`; the numbers in it must follow
-        each other without a gap.
+        each other without a gap. A first dimension of -1 is as long as the message has it.
 
     Raises
     ------
@@ -182,32 +196,44 @@ class _Walk:
             for field, inner in kind.fields:
                 self.visit(inner, f"{name}.{field}" if name else field)
         else:
-            count = self._take_length(name, _least(kind.kind)) if kind.count is None else kind.count
+            count = kind.count
+            if count is None:
+                count = self._take_length(name, _least(kind.kind))
+                if kind.most is not None and count > kind.most:
+                    raise LayoutError(f"field {name} has {count} elements, accepted are at most {kind.most}")
             if isinstance(kind.kind, str) and kind.kind is not TEXT:
                 self._take_numbers(name, kind.kind, count)
                 return
             self._check_left(count * _least(kind.kind), name)
+            if not count:
+                self._numbers.append((name, self._end, "B", 0))
             for index in range(count):
                 self.visit(kind.kind, f"{name}.{index}")
 
     def place(self, name, shape):
         """Return place and format of a field."""
         found = [run for run in self._numbers if f"{run[0]}.".startswith(f"{name}.")]
-        asked, there = int(np.prod(shape, dtype=int)), sum(count for *_, count in found)
+        if not found:
+            raise LayoutError(f"field {name} has no numbers")
+        there = sum(count for *_, count in found)
+        if -1 in shape:
+            shape = (there // int(np.prod(shape[1:], dtype=int)), *shape[1:])
+        asked = int(np.prod(shape, dtype=int))
         if there != asked:
             raise LayoutError(f"field {name} has {there} numbers, must be {asked}")
-        _, first, letter, _ = found[0]
+        runs = [run for run in found if run[-1]] or found[:1]  # of nothing it does not matter where it stands
+        _, first, letter, _ = runs[0]
         end = first
-        for _, place, other, count in found:
+        for _, place, other, count in runs:
             if (place, other) != (end, letter):
                 raise LayoutError(f"the numbers of field {name} are not of one kind, one after the other")
             end += count * calcsize(f"={letter}")
         return first, (f"{self.order}{letter}", shape)
 
     def _take_numbers(self, name, letter, count):
-        if count:  # nothing is aligned for nothing
-            size = calcsize(f"={letter}")
-            self._numbers.append((name, self._step(count * size, size, name), letter, count))
+        size = calcsize(f"={letter}")
+        place = self._step(count * size, size, name) if count else self._end  # nothing is aligned for nothing
+        self._numbers.append((name, place, letter, count))
 
     def _take_length(self, name, least):
         place = self._step(4, 4, name)

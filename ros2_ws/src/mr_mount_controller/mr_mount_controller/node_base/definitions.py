@@ -3,7 +3,14 @@
 from functools import cache
 from importlib import import_module
 
-from rosidl_parser.definition import AbstractNestedType, AbstractString, Array, BasicType, NamespacedType
+from rosidl_parser.definition import (
+    AbstractNestedType,
+    AbstractString,
+    Array,
+    BasicType,
+    BoundedSequence,
+    NamespacedType,
+)
 
 from .cdr import NUMBERS, TEXT, Fields, LayoutError, Repeated
 
@@ -23,7 +30,9 @@ def installed_definition(message_type):
 
 def _kind(name, each):
     if isinstance(each, AbstractNestedType):
-        return Repeated(_kind(name, each.value_type), each.size if isinstance(each, Array) else None)
+        count = each.size if isinstance(each, Array) else None
+        most = each.maximum_size if isinstance(each, BoundedSequence) else None
+        return Repeated(_kind(name, each.value_type), count, most)
     if isinstance(each, NamespacedType):
         return installed_definition(getattr(import_module(".".join(each.namespaces)), each.name))
     if isinstance(each, AbstractString):

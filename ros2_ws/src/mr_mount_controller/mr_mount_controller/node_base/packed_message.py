@@ -15,12 +15,12 @@ from .definitions import installed_definition
 
 
 class PackedMessage:
-    """A message with a header and some fields of a fixed number of floats.
+    """A message with a header and some fields of a number of floats that does not change.
 
     Parameters
     ----------
     message : ROS message
-        With everything set that does not change.
+        With everything set that does not change, sequences with as many elements as they shall have.
     fields : dict
         How many float64 each changing field has, by name: vectors (x, y, z), arrays of floats or arrays of vectors.
     """

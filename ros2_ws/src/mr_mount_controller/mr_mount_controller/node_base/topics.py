@@ -4,8 +4,10 @@ from typing import NamedTuple
 
 CHASSIS_IMU = "chassis/imu"
 POWERTRAIN_IMU = "powertrain/imu"
+FURTHER_IMU = "*/imu"  # see `imu_topic`
 COIL_CURRENT = "coil_current"
 MOUNT_STATE = "mount_state"
+MOUNT_DESCRIPTION = "mount_description"
 ODOMETRY = "odometry"
 ROAD_PROFILE = "road_profile"
 VEHICLE_DESCRIPTION = "vehicle_description"
@@ -17,6 +19,7 @@ DIAGNOSTICS = "/diagnostics"
 IMU_TYPE = "sensor_msgs/msg/Imu"
 COIL_CURRENT_TYPE = "trackvib_msgs/msg/CoilCurrent"
 MOUNT_STATE_TYPE = "trackvib_msgs/msg/MountState"
+MOUNT_DESCRIPTION_TYPE = "trackvib_msgs/msg/MountDescription"
 ODOMETRY_TYPE = "nav_msgs/msg/Odometry"
 ROAD_PROFILE_TYPE = "trackvib_msgs/msg/RoadProfile"
 VEHICLE_DESCRIPTION_TYPE = "std_msgs/msg/String"
@@ -25,9 +28,18 @@ DIAGNOSTICS_TYPE = "diagnostic_msgs/msg/DiagnosticArray"
 RECORDED_TYPE = "builtin_interfaces/msg/Time"
 
 CHASSIS_FRAME = "chassis_imu_link"
-POWERTRAIN_FRAME = "powertrain_imu_link"
 HULL_FRAME = "base_link"
 ROAD_FRAME = "odom"
+
+
+def imu_topic(sensor):
+    """Return the topic of a sensor by its name."""
+    return f"{sensor}/imu"
+
+
+def imu_frame(sensor):
+    """Return the frame of a sensor by its name."""
+    return f"{sensor}_imu_link"
 
 
 class Topic(NamedTuple):
@@ -56,18 +68,32 @@ TOPICS = (
         "Upper (powertrain) end of the mounts, likewise.",
     ),
     Topic(
+        FURTHER_IMU,
+        IMU_TYPE,
+        "simulator",
+        "1 kHz over the sensor's divisor",
+        "Each further sensor of the vehicle file by its name, mean over its periods.",
+    ),
+    Topic(
         COIL_CURRENT,
         COIL_CURRENT_TYPE,
         "controller",
         "1 kHz",
-        "The answer: demanded current of both coils, and the stamp of the sample that it answers.",
+        "The answer: demanded current of each coil, and the stamp of the sample that it answers.",
     ),
     Topic(
         MOUNT_STATE,
         MOUNT_STATE_TYPE,
         "simulator",
         "1 kHz",
-        "Current, stiffness, damping, deflection, velocity, force and dissipated power of both mounts.",
+        "Current in each coil; stiffness, damping, deflection, velocity, force and dissipated power of each mount.",
+    ),
+    Topic(
+        MOUNT_DESCRIPTION,
+        MOUNT_DESCRIPTION_TYPE,
+        "simulator",
+        "once",
+        "The mounts by name, kind and place; how many coils there are.",
     ),
     Topic(ODOMETRY, ODOMETRY_TYPE, "simulator", "100 Hz", "Pose and velocity of the hull."),
     Topic(

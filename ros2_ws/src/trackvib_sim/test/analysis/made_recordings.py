@@ -4,6 +4,7 @@ from collections import Counter
 from pathlib import Path
 
 import numpy as np
+from mr_mount_controller.mounting import PAIR
 from trackvib_sim.bags.recording import Answers, Inertial, LoopCounts, Mounts, Odometry, Recording
 from trackvib_sim.data import find_vehicle
 
@@ -23,6 +24,8 @@ def made_recording(milliseconds, chassis=None, powertrain=None, speed=10.0):
         topics={end: f"/ns/{end}" for end in ("chassis/imu", "powertrain/imu", "mount_state")},
         chassis=Inertial(stamp, chassis, np.zeros((count, 3))),
         powertrain=Inertial(stamp, powertrain, np.zeros((count, 3))),
+        sensors={},
+        mounting=PAIR,
         mounts=Mounts(stamp, pair, 1e6 * pair, 1e3 * pair, vectors, vectors, vectors, 5.0 * pair),
         answers=Answers(stamp, 2.0 * pair),
         odometry=Odometry(slow, np.zeros((len(slow), 3)), np.full(len(slow), speed)),

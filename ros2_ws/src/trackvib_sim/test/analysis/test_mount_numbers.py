@@ -24,7 +24,7 @@ def test_mounts_of_known_motion(monkeypatch):
     current = np.stack((np.where(STAMP <= 6000 * MS, 1.0, 3.0), STAMP / 1e9), axis=1)
     pair = np.ones((len(STAMP), 2))
     mounts = Mounts(STAMP, current, pair, pair, deflection, 0.0 * deflection, -1e6 * deflection, pair * (5.0, 10.0))
-    left, right = mount_numbers(mounts, AFTER).values()
+    left, right = mount_numbers(mounts, ("left", "right"), AFTER).values()
     assert left.axes["z"].deflection_mean == pytest.approx(-5e-3, rel=1e-9)
     assert left.axes["z"].travel_rms == pytest.approx(1e-3 / np.sqrt(2.0), rel=1e-9)
     assert right.axes["z"].travel_peak == pytest.approx(2e-3, rel=1e-9)
@@ -44,7 +44,23 @@ def test_a_jump_of_the_current_over_a_gap_is_no_slew():
     """What happened within the gap is not known."""
     stamp = np.append(STAMP[:5000], STAMP[6000:])
     current = np.where(stamp < 5500 * MS, 1.0, 3.0)[:, None] * (1.0, 1.0)
-    assert currents(stamp, current, AFTER)["left"].slew == 0.0
+    assert currents(stamp, current, ("left", "right"), AFTER)["left"].slew == 0.0
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(("coils", "count"), [(0, 1), (1, 1), (4, 4), (2, 6), (16, 32)])
+def test_any_number_of_mounts(coils, count):
+    """Each has the numbers of its own columns, and the current of its coil if it has one."""
+    ones = np.ones((len(STAMP), count)) * np.arange(1, count + 1)
+    vectors = ones[:, :, None] * np.sin(2.0 * np.pi * 2.0 * STAMP / 1e9)[:, None, None] * (1.0, 10.0, 100.0)
+    mounts = Mounts(STAMP, ones[:, :coils], ones, ones, vectors, vectors, vectors, ones)
+    found = mount_numbers(mounts, [f"mount {k}" for k in range(1, count + 1)], AFTER)
+    assert list(found) == [f"mount {k}" for k in range(1, count + 1)]
+    for k, numbers in enumerate(found.values(), 1):
+        travel = [numbers.axes[axis].travel_rms for axis in "xyz"]
+        np.testing.assert_allclose(travel, k * np.array([1.0, 10.0, 100.0]) / np.sqrt(2.0), rtol=1e-9)
+        assert numbers.power_dissipated == pytest.approx(k)
+        assert numbers.current.mean == k if k <= coils else np.isnan(numbers.current.mean)
 
 
 @pytest.mark.property

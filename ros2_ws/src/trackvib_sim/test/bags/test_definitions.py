@@ -69,7 +69,7 @@ def test_what_does_not_fit_is_refused():
     """A field that is not there, of another shape or mixed, a cut message, other encodings, a broken definition."""
     data = serialised("abc", [1], np.ones((2, 3)))
     for wanted in ({"missing": ()}, {"small": (2,)}, {"name": ()}):
-        with pytest.raises(LayoutError, match=r"has \d numbers, must be"):
+        with pytest.raises(LayoutError, match=r"has (1 numbers, must be 2|no numbers)"):
             find_layout(MIXED.kind, data, wanted)
     with pytest.raises(LayoutError, match="not of one kind, one after the other"):
         find_layout(MIXED.kind, data, {"pairs": (8,)})

@@ -47,7 +47,8 @@ def same(recording, messages):
     for name in ("current", "stiffness", "damping", "dissipated_power"):
         np.testing.assert_array_equal(getattr(mounts, name), [getattr(m, name) for m in states])
     for name in ("deflection", "velocity", "force"):
-        np.testing.assert_array_equal(getattr(mounts, name), vectors(states, name))
+        columns = getattr(mounts, name)
+        np.testing.assert_array_equal(columns, np.reshape(vectors(states, name), columns.shape))
     answers, odometry = messages["coil_current"], messages["odometry"]
     np.testing.assert_array_equal(recording.answers.sample_stamp, [nanoseconds(m.sample_stamp) for m in answers])
     np.testing.assert_array_equal(recording.answers.current, [m.current for m in answers])

@@ -38,6 +38,20 @@ def test_progress_is_that_of_the_slowest_topic(order):
         assert times.latest == max(count) * MS
 
 
+@pytest.mark.property
+@given(st.integers(1, 20), st.lists(st.booleans(), min_size=1, max_size=80))
+def test_a_slow_sensor_holds_nothing_up_before_it_is_due(divisor, lost):
+    """All that was due up to `complete_until` has come, of a sensor that reads every so many periods as well."""
+    times, came = recorded(IMU), 0
+    for k, lose in enumerate(lost, 1):
+        times.add("/chassis/imu", IMU, True, stamped(k * MS))
+        if k % divisor == 0 and not (lose and came):
+            came = k
+            times.add("/seat/imu", IMU, True, stamped(k * MS))
+        due = k - k % divisor
+        assert times.complete_until == (k if came == due else came) * MS
+
+
 def test_without_topics_of_every_period():
     """Nothing of them is missing, ever; as long as none has come, the latest of all stamps counts."""
     assert recorded(CLOCK).complete_until == END_OF_TIME

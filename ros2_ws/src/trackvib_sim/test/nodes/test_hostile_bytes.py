@@ -5,8 +5,10 @@ import tracemalloc
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from geometry_msgs.msg import Vector3
 from hypothesis import given
 from hypothesis import strategies as st
+from mr_mount_controller.mounting import undescribed
 from mr_mount_controller.node_base.cdr import NANO, Checker, LayoutError, check, find_layout, leading_stamp
 from mr_mount_controller.node_base.definitions import installed_definition
 from mr_mount_controller.node_base.listener import whole_message
@@ -20,14 +22,25 @@ from trackvib_msgs.msg import CoilCurrent, MountState, RoadProfile
 from trackvib_sim.bags.definitions import Definition
 from trackvib_sim.bags.reading import COLUMNS
 from trackvib_sim.bags.schemas import schema_text
+from trackvib_sim.nodes.messages import mount_description
 
 pytestmark = [pytest.mark.property, pytest.mark.cross_engine]
+
+
+def mount_state():
+    """Two coils, three mounts."""
+    three = [1.0, 2.0, 3.0]
+    vectors = dict.fromkeys(("deflection", "velocity", "force"), [Vector3(x=each) for each in three])
+    return MountState(current=[0.5, 1.5], stiffness=three, damping=three, dissipated_power=three, **vectors)
+
 
 HEIGHTS = [0.5, -0.25, 1e-3]
 MESSAGES = [
     Imu(),
     CoilCurrent(current=[0.5, 1.5]),
-    MountState(),
+    CoilCurrent(),
+    mount_state(),
+    mount_description(undescribed(2, 3)),
     Odometry(child_frame_id="base_link"),
     RoadProfile(spacing=0.05, left=HEIGHTS, right=HEIGHTS),
     String(data="vehicle: {}"),

@@ -73,7 +73,7 @@ def test_stamps_are_exact(reference):
 
 
 @pytest.mark.analytic
-def test_sensors_are_those_of_an_inertial_navigator(simulation, rough, rows, easy_teeth):
+def test_sensors_are_those_of_an_inertial_navigator(simulation, rough, easy_teeth):
     """From the first state on, integrating the sensors' readings gives attitude and velocity of their points.
 
     Over a period of 1 ms the readings are means; taking force and attitude as constant costs half a period of their
@@ -87,8 +87,7 @@ def test_sensors_are_those_of_an_inertial_navigator(simulation, rough, rows, eas
     def truth():
         update_motion(moving.system.tree, moving.state.tree, motion)
         turns, velocities = [], []
-        for sensor in moving.sensors:
-            body, place = rows[sensor.body], sensor.place
+        for body, place in zip(moving.points.body, moving.points.place, strict=True):
             turns.append(Rotation.from_matrix(np.reshape(rotation(motion, body), (3, 3))))
             velocities.append(point_velocity(motion, body, point_place(motion, body, tuple(place))))
         return turns, np.array(velocities)

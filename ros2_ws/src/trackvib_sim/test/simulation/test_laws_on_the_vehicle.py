@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from mr_mount_controller import mount
-from mr_mount_controller.laws import find_law, shipped_laws, two_mount_model
+from mr_mount_controller.laws import find_law, mount_model, shipped_laws
 from mr_mount_controller.laws.base import Sample
 from mr_mount_controller.laws.engine_speed import ORDERS, SPEEDS, EngineSpeedEstimator
 from mr_mount_controller.laws.passive import Passive
@@ -34,7 +34,7 @@ def test_controller_knows_the_mounts(vehicle, system):
 @pytest.mark.golden
 def test_controller_knows_the_powertrain(vehicle):
     """The model that laws are designed on is the shipped vehicle to 2 % and 5 mm, as near as a controller needs it."""
-    v, p, model = vehicle, vehicle.powertrain, two_mount_model
+    v, p, model = vehicle, vehicle.powertrain, mount_model
     arms, shocks = v.swing_arms, v.shock_absorbers
     for known, true in (
         (model.HULL_MASS, v.hull.mass + sum(body.mass for body in v.bodies.values())),

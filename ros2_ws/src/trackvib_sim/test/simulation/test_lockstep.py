@@ -13,7 +13,7 @@ NAN, INF = float("nan"), float("inf")
 
 def running(lockstep, samples=3, answered=1):
     """An exchange with samples 1 ... `samples` ms out, of which `answered` has its answer of 1.5 A."""
-    exchange = Lockstep(1.0, USABLE, lockstep)
+    exchange = Lockstep(2, 1.0, USABLE, lockstep)
     for k in range(1, samples + 1):
         exchange.publish(k * MS)
         if k == answered:
@@ -98,7 +98,7 @@ def test_silence_falls_back_until_the_next_answer():
 @pytest.mark.property
 def test_before_the_first_sample_nothing_is_accepted():
     """Without a sample no answer answers anything, and the initial current is in force."""
-    exchange = Lockstep(1.2, USABLE)
+    exchange = Lockstep(2, 1.2, USABLE)
     assert not exchange.answered
     assert exchange.offer(MS, (2.0, 2.0)) == "early"
     assert exchange.currents.tolist() == [1.2, 1.2]
@@ -112,6 +112,23 @@ def test_offered_currents_are_copied():
     exchange.offer(3 * MS, answer)
     answer[:] = 9.0
     assert exchange.currents.tolist() == [2.0, 2.0]
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("coils", [0, 1, 2, 4, 16])
+def test_any_number_of_coils(coils):
+    """All are put in force together; one that is not finite spoils the answer, one beyond the limits is counted."""
+    exchange, currents = Lockstep(coils, 1.0, USABLE), np.linspace(1.0, 2.0, coils)
+    assert exchange.currents.tolist() == [1.0] * coils
+    exchange.publish(MS)
+    for bad in (NAN, INF):
+        if coils:
+            assert exchange.offer(MS, [*currents[:-1], bad]) == "not_finite"
+    assert exchange.offer(MS, currents.tolist()) == "accepted"
+    assert exchange.currents.tolist() == currents.tolist()
+    exchange.publish(2 * MS)
+    assert exchange.offer(2 * MS, [*currents[:-1], 9.0][:coils]) == "accepted"
+    assert exchange.counts["saturated"] == (coils > 0)
 
 
 EVENTS = st.lists(
@@ -131,7 +148,7 @@ def test_currents_in_force_are_those_of_the_rules(events, lockstep):
     In lock-step: those of the first finite answer to the latest sample that got one while it was the latest. In
     real time: those of the answer to the newest sample among the finite answers, the first of them.
     """
-    exchange, latest, offers = Lockstep(1.0, USABLE, lockstep), 0, []
+    exchange, latest, offers = Lockstep(2, 1.0, USABLE, lockstep), 0, []
     for event in ["publish", *events]:
         if event == "publish":
             latest += 1

@@ -39,7 +39,7 @@ def test_rigid_baseline_is_the_hull_at_the_powertrains_sensor(vehicle, result):
     assert rigid[1] == pytest.approx(powertrain[1], rel=0.01)
     assert rigid[2] != pytest.approx(powertrain[2], rel=0.01)
     at_rear, at_sensor = (np.array(probes(vehicle)[k].place) for k in (0, 2))
-    assert_allclose(at_sensor - at_rear, vehicle.mr_mounts.place * np.array((1.0, 0.0, 1.0)))
+    assert_allclose(at_sensor - at_rear, vehicle.mounts["left"].place * np.array((1.0, 0.0, 1.0)))
     assert [probe.body for probe in probes(vehicle)] == ["hull", "powertrain", "hull"]
 
 

@@ -57,6 +57,7 @@ def analyse(
     speed, speed_deviation = _speed(recording.odometry, segments.settled)
     engine_speed, lines, why_fewer = find_lines(recording, spectra, speed, speed_deviation)
     mounts, answers, energy = recording.mounts, recording.answers, mount_energy(recording)
+    names = recording.mounting.names
     return Analysis(
         bag=str(recording.path),
         begin=segments.begin,
@@ -73,8 +74,8 @@ def analyse(
             sensor: hypot(*(numbers.rms_weighted for numbers in axes.values())) for sensor, axes in sensors.items()
         },
         lines=lines,
-        mounts={} if mounts is None else mount_numbers(mounts, segments.settled),
-        demand={} if answers is None else currents(*answers, segments.settled),
+        mounts={} if mounts is None else mount_numbers(mounts, names, segments.settled),
+        demand={} if answers is None else currents(*answers, names, segments.settled),
         mount_energy=None if energy is None else energy._asdict(),
         loop=loop,
         messages=dict(sorted(recording.counts.items())),

@@ -9,7 +9,7 @@ import pyarrow as pa
 from pyarrow import csv, parquet
 
 from . import numbers
-from .numbers import AXES, SENSORS, SIDES
+from .numbers import AXES, SENSORS
 
 COLUMNS = ("bag", "part", "axis", "quantity", "value", "unit")
 # of the fields of each kind of record
@@ -30,7 +30,8 @@ def write_tables(analyses, folder):
     csv.write_csv(pa.table(dict(zip(COLUMNS, columns, strict=True))), folder / "numbers.csv")
     for name, columns_of in (("spectra", spectra_columns), ("history", history_columns)):
         tables = [_table(analysis.bag, columns_of(analysis)) for analysis in analyses]
-        parquet.write_table(pa.concat_tables(tables), folder / f"{name}.parquet")
+        # bags may differ in their mounts
+        parquet.write_table(pa.concat_tables(tables, promote_options="default"), folder / f"{name}.parquet")
 
 
 def rows(analysis):
@@ -46,13 +47,13 @@ def rows(analysis):
         for sensor, axes in line.rms.items():
             for axis, level in axes.items():
                 yield bag, sensor, axis, f"rms of {line.name}", level, UNITS["Line"]["rms"]
-    for side, mount in analysis.mounts.items():
+    for name, mount in analysis.mounts.items():
         for axis, of_axis in mount.axes.items():
-            yield from _of(bag, f"{side} mount", axis, of_axis)
-        yield from _of(bag, f"{side} mount", "", mount)
-        yield from _of(bag, f"{side} mount", "", mount.current, "current_")
-    for side, current in analysis.demand.items():
-        yield from _of(bag, f"{side} demand", "", current, "current_")
+            yield from _of(bag, f"{name} mount", axis, of_axis)
+        yield from _of(bag, f"{name} mount", "", mount)
+        yield from _of(bag, f"{name} mount", "", mount.current, "current_")
+    for name, current in analysis.demand.items():
+        yield from _of(bag, f"{name} demand", "", current, "current_")
     for part, energy in (analysis.mount_energy or {}).items():
         yield bag, "mounts", "", f"{part}_by_simulator", energy, UNITS["Analysis"]["mount_energy"]
     for name, count in analysis.loop.items():
@@ -89,12 +90,12 @@ def history_columns(analysis):
         for name in ("rms", "rms_weighted"):
             columns |= _by(AXES, f"{sensor}_{name}", getattr(history, name)[sensor], units[name])
     for name in ("current", "power_dissipated", "travel"):
-        columns |= _by(SIDES, name, getattr(history, name), units[name])
+        columns |= _by(history.mounts, name, getattr(history, name), units[name])
     return columns
 
 
 def _by(parts, name, values, unit):
-    return {f"{name}_{part}": (values[:, k], unit) for k, part in enumerate(parts)}
+    return {f"{name}_{part}": (values[:, k], unit) for k, part in enumerate(parts[: values.shape[1]])}
 
 
 def _table(bag, columns):

@@ -30,6 +30,9 @@ def missing(recording):
         _samples(end, stamps, np.empty(0, np.int64) if stream is None else stream.stamp)
         for end, stream in streams.items()
     ]
+    for name, sensor in recording.sensors.items():  # each reads every so many periods
+        due = stamps[stamps % period_of(sensor.stamp) == 0] if len(sensor.stamp) > 1 else sensor.stamp
+        lacking.append(_samples(topics.imu_topic(name), due, sensor.stamp))
     return list(filter(None, (*lacking, _answers(recording.answers, stamps, counts), _road(recording))))
 
 

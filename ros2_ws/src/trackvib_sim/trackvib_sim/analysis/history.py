@@ -10,15 +10,17 @@ def build_history(recording, bins, levels):
     """Return the `History` of a recording over `levels.Bins`, given the `Levels` by sensor."""
     rms, weighted = zip(*(levels[sensor].history() for sensor in SENSORS), strict=True)
     mounts, odometry = recording.mounts, recording.odometry
-    nothing = np.full((bins.count, 2), np.nan)
-    current, power, travel, speed = nothing, nothing, nothing, nothing[:, 0]
+    mounting = recording.mounting
+    current = np.full((bins.count, mounting.coils), np.nan)
+    power = travel = np.full((bins.count, len(mounting.mounts)), np.nan)
+    speed = np.full(bins.count, np.nan)
     if mounts is not None:
         current, power = (bin_means(bins, mounts.stamp, each)[0] for each in (mounts.current, mounts.dissipated_power))
         travel = bin_means(bins, mounts.stamp, mounts.deflection[:, :, 2])[1]
     if odometry is not None:
         speed = bin_means(bins, odometry.stamp, odometry.speed[:, None])[0][:, 0]
     by_sensor = (dict(zip(SENSORS, each, strict=True)) for each in (rms, weighted))
-    return History(bins.middle, *by_sensor, speed, current, power, travel)
+    return History(bins.middle, *by_sensor, speed, current, power, travel, mounting.names)
 
 
 def bin_means(bins, stamp, values):

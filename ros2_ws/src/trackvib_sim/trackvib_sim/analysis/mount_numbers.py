@@ -1,12 +1,15 @@
 """Numbers that need no filter: of mounts, currents and speed. In blocks, as `levels`."""
 
+from math import nan
 from typing import NamedTuple
 
 import numpy as np
 
 from ..numerics.units import NANO
-from .numbers import AXES, SIDES, Current, MountAxis, MountNumbers
+from .numbers import AXES, Current, MountAxis, MountNumbers
 from .stamps import BLOCK, TOLERANCE, blocks, period_of
+
+_NO_COIL = Current(*[nan] * 5)
 
 
 class Moments(NamedTuple):
@@ -53,16 +56,16 @@ def moments(stamp, values, after):
     return Moments(count, mean, variance + mean**2, np.sqrt(variance), least, greatest)
 
 
-def currents(stamp, current, after):
-    """Return the `Current` of each side, of stamps (k,) [ns] and currents (k, 2) [A] later than `after` [ns]."""
+def currents(stamp, current, names, after):
+    """Return the `Current` by name of coil, of stamps (k,) [ns] and currents (k, m) [A] later than `after` [ns]."""
     found, slew = moments(stamp, current, after), _slew(stamp, current, after)
     columns = (found.mean, np.sqrt(found.square), found.least, found.greatest, slew)
-    return dict(zip(SIDES, (Current(*map(float, side)) for side in zip(*columns, strict=True)), strict=True))
+    return {name: Current(*map(float, coil)) for name, *coil in zip(names, *columns, strict=False)}
 
 
 def _slew(stamp, current, after):
-    """Greatest change (2,) from a sample to the next, over the time between; not across gaps."""
-    period, slew = period_of(stamp), np.full(2, np.nan)
+    """Greatest change (m,) from a sample to the next, over the time between; not across gaps."""
+    period, slew = period_of(stamp), np.full(current.shape[1], np.nan)
     for block in blocks(len(stamp) - 1, BLOCK):
         samples = slice(block.start, block.stop + 1)
         step = np.diff(stamp[samples])
@@ -73,11 +76,11 @@ def _slew(stamp, current, after):
     return slew
 
 
-def mount_numbers(mounts, after):
-    """Return the `MountNumbers` of each side over the samples of `recording.Mounts` later than `after` [ns]."""
-    current = currents(mounts.stamp, mounts.current, after)
+def mount_numbers(mounts, names, after):
+    """Return the `MountNumbers` by name of mount over the samples of `recording.Mounts` later than `after` [ns]."""
+    current = currents(mounts.stamp, mounts.current, names, after)
     deflection, force = (
-        moments(mounts.stamp, each.reshape(-1, 6), after) for each in (mounts.deflection, mounts.force)
+        moments(mounts.stamp, each.reshape(len(each), -1), after) for each in (mounts.deflection, mounts.force)
     )
     power = moments(mounts.stamp, mounts.dissipated_power, after)
     columns = (
@@ -86,8 +89,11 @@ def mount_numbers(mounts, after):
     axes = [MountAxis(*map(float, numbers)) for numbers in zip(*columns, strict=True)]
     energy = power.mean * power.count * period_of(mounts.stamp) / NANO
     return {
-        side: MountNumbers(
-            dict(zip(AXES, axes[3 * k : 3 * k + 3], strict=True)), current[side], float(energy[k]), float(power.mean[k])
+        name: MountNumbers(
+            dict(zip(AXES, axes[3 * k : 3 * k + 3], strict=True)),
+            current.get(name, _NO_COIL),
+            float(energy[k]),
+            float(power.mean[k]),
         )
-        for k, side in enumerate(SIDES)
+        for k, name in enumerate(names)
     }

@@ -1,14 +1,14 @@
 """What is wrong with a recording, in sentences."""
 
 import numpy as np
+from mr_mount_controller.node_base import topics
 
 from .iso2631 import LEAST_RATE
-from .segments import TOPICS
 from .stamps import BLOCK, blocks
 
 _WITHOUT = {  # what cannot be had of a bag without these topics
-    "mounts": "no numbers of the mounts",
-    "answers": "no demanded currents, and nobody knows which samples were answered",
+    topics.MOUNT_STATE: "no numbers of the mounts",
+    topics.COIL_CURRENT: "no demanded currents, and nobody knows which samples were answered",
 }
 
 
@@ -17,7 +17,7 @@ def find_notes(recording, segments):
     notes = []
     if not recording.complete:
         notes.append("the bag was cut short; what there is of it counts (`trackvib bag repair` completes it)")
-    odd = {end: _not_finite(getattr(recording, part)) for part, end in TOPICS.items() if end in segments.timing}
+    odd = {end: _not_finite(columns) for end, columns in recording.streams.items()}
     for end, found in segments.timing.items():
         missing = "1 sample is" if found.missing == 1 else f"{found.missing} samples are"
         counts = {
@@ -31,8 +31,7 @@ def find_notes(recording, segments):
         notes.append(
             f"sampling rate is {segments.rate:g} Hz, below {LEAST_RATE:g} Hz: no weighted values of ISO 2631-1"
         )
-    lacking = (part for part in _WITHOUT if getattr(recording, part) is None)
-    return notes + [f"no {TOPICS[part]} in the bag: {_WITHOUT[part]}" for part in lacking]
+    return notes + [f"no {end} in the bag: {what}" for end, what in _WITHOUT.items() if end not in recording.streams]
 
 
 def _not_finite(columns):

@@ -1,7 +1,8 @@
 """All that `analyze` says of a bag, as plain data. Each number carries its unit; `docs/bags.md` defines each.
 
-Sensors are "chassis" and "powertrain", axes "x" (forward), "y" (left) and "z" (up), sides "left" and "right". A number
-that cannot be had is nan, and the notes of the `Analysis` say why.
+Sensors are "chassis" and "powertrain", axes "x" (forward), "y" (left) and "z" (up); mounts have the names that the bag
+tells, "left" and "right" of one that tells none. A number that cannot be had is nan, as the current of a mount without
+a coil, and the notes of the `Analysis` say why.
 """
 
 from dataclasses import dataclass, field
@@ -10,7 +11,6 @@ import numpy as np
 
 AXES = ("x", "y", "z")
 SENSORS = ("chassis", "powertrain")
-SIDES = ("left", "right")
 
 
 def _number(unit):
@@ -122,9 +122,10 @@ class History:
     rms: dict = _number("m/s²")  # sensor -> (n, 3) band-limited
     rms_weighted: dict = _number("m/s²")  # sensor -> (n, 3)
     speed: np.ndarray = _number("m/s")  # (n,) mean
-    current: np.ndarray = _number("A")  # (n, 2) mean in the coils
-    power_dissipated: np.ndarray = _number("W")  # (n, 2) mean
-    travel: np.ndarray = _number("m")  # (n, 2) RMS of the vertical travel about its mean over the bin
+    current: np.ndarray = _number("A")  # (n, coils) mean in the coils
+    power_dissipated: np.ndarray = _number("W")  # (n, mounts) mean
+    travel: np.ndarray = _number("m")  # (n, mounts) RMS of the vertical travel about its mean over the bin
+    mounts: tuple  # names, of the coils the first ones
 
 
 @dataclass(frozen=True)
@@ -154,8 +155,8 @@ class Analysis:
     sensors: dict  # sensor -> axis -> AxisNumbers
     total_weighted: dict = _number("m/s²")  # sensor -> root of the sum of the three rms_weighted squared
     lines: tuple  # `Line`s, link passing first
-    mounts: dict  # side -> MountNumbers; empty without mount states
-    demand: dict  # side -> Current that the controller asked for; empty without answers
+    mounts: dict  # mount -> MountNumbers; empty without mount states
+    demand: dict  # coil, called as its mount -> Current that the controller asked for; empty without answers
     mount_energy: dict | None = _number("J")  # the simulator's own account of the whole run, if it told one
     loop: dict  # what was lost (None where the bag cannot tell), and what the simulator told last
     messages: dict  # topic -> count

@@ -7,14 +7,15 @@ matplotlib.use("Agg")  # files only: no display is needed
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
-from .numbers import SENSORS, SIDES
+from .numbers import SENSORS
 from .plots import LOWEST_FREQUENCY, NAMES  # noqa: E402
 from .vibration import psd  # noqa: E402
 
 plt.rcParams["text.parse_math"] = False  # names of bags and laws come from outside
 
 COLOURS = ("#6b7785", "#c2410c")  # recorded, replayed
-SIDE_COLOURS = ("#1d5fa8", "#c98a00")
+COIL_COLOURS = ("#1d5fa8", "#c98a00", "#2f7f3f", "#a03f8f")
+_DASHES = ("-", "--", ":", "-.")
 PART = 0.5  # s, of which levels are drawn: of samples the last curve drawn would hide the others
 CLOSE = 1.0  # s that are drawn close up
 
@@ -22,7 +23,7 @@ CLOSE = 1.0  # s that are drawn close up
 def drives_picture(drives, currents, title, path):
     """Draw vertical levels and spectra of both sensors and the currents of two drives to a PNG file.
 
-    `drives` maps two labels to `summary.Prepared`, `currents` the same to times [s] and currents (k, 2) [A].
+    `drives` maps two labels to `summary.Prepared`, `currents` the same to times [s] and currents (k, coils) [A].
     """
     figure = plt.figure(figsize=(13, 9), layout="constrained")
     histories, spectra = figure.subfigures(1, 2, width_ratios=(1.25, 1.0))
@@ -44,16 +45,16 @@ def drives_picture(drives, currents, title, path):
     for colour, (time, values) in zip(COLOURS, currents.values(), strict=True):
         if len(time):
             width = max(round(PART * len(time) / max(time[-1] - time[0], PART)), 1)
-            time, both = _parts(time, width).mean(1), _parts(values.mean(1), width)
-            rows[2].fill_between(time, both.min(1), both.max(1), color=colour, alpha=0.2, linewidth=0.0)
-            rows[2].plot(time, both.mean(1), color=colour, linewidth=1.2)
-    rows[2].set_ylabel(f"demanded current, both mounts:\nmean and range of each {PART:g} s, A")
+            time, mean = _parts(time, width).mean(1), _parts(values.mean(1), width)
+            rows[2].fill_between(time, mean.min(1), mean.max(1), color=colour, alpha=0.2, linewidth=0.0)
+            rows[2].plot(time, mean.mean(1), color=colour, linewidth=1.2)
+    rows[2].set_ylabel(f"demanded current, all coils:\nmean and range of each {PART:g} s, A")
     rows[2].set_xlabel("time, s")
     _finish(figure, title, rows[0], path)
 
 
-def currents_picture(time, recorded, replayed, title, path):
-    """Draw recorded and replayed currents (k, 2) [A] over time [s], and their difference, to a PNG file.
+def currents_picture(time, recorded, replayed, names, title, path):
+    """Draw recorded and replayed currents (k, coils) [A] over time [s], and their difference, to a PNG file.
 
     All of it on the left, on the right the second about the greatest difference.
     """
@@ -65,9 +66,10 @@ def currents_picture(time, recorded, replayed, title, path):
     begin = max(min(middle - CLOSE / 2, time[-1] - CLOSE), time[0])
     for plots, values in zip(rows, (recorded.T, replayed.T, difference.T), strict=True):
         for plot in plots:
-            for colour, dash, each, side in zip(SIDE_COLOURS, ("-", "--"), values, SIDES, strict=True):
+            for index, (each, name) in enumerate(zip(values, names, strict=False)):  # a coil is called as its mount
+                colour, dash = COIL_COLOURS[index % len(COIL_COLOURS)], _DASHES[(index + index // 4) % len(_DASHES)]
                 style = {"color": colour, "linestyle": dash, "linewidth": 0.9, "drawstyle": "steps-post"}
-                plot.plot(time, each, label=f"{side} coil", **style)
+                plot.plot(time, each, label=f"{name} coil", **style)
     for (plot, _), words in zip(rows, ("recorded, A", "replayed, A", "replayed less\nrecorded, A"), strict=True):
         plot.set_ylabel(words)
     rows[1, 0].sharey(rows[0, 0])

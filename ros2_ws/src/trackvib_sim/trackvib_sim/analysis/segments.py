@@ -13,13 +13,7 @@ from .settling import SHORTEST_SETTLING, settling_time
 from .stamps import start_of, timing
 
 SHORTEST_MEASURING = 1.0  # s
-TOPICS = dict(  # by part of a recording
-    chassis=topics.CHASSIS_IMU,
-    powertrain=topics.POWERTRAIN_IMU,
-    mounts=topics.MOUNT_STATE,
-    answers=topics.COIL_CURRENT,
-    odometry=topics.ODOMETRY,
-)
+_IMUS = (topics.CHASSIS_IMU, topics.POWERTRAIN_IMU)
 
 
 class TooShort(ValueError):
@@ -72,14 +66,10 @@ def find_segments(recording, settle=None):
     if not settle >= SHORTEST_SETTLING:  # nan is refused, too
         raise ValueError(f"settle is {settle:g} s, must be {SHORTEST_SETTLING:g} s or more")
     begin = start_of(recording)
-    timings = {
-        end: timing(getattr(recording, part)[0], begin)  # the first column of each is its stamps
-        for part, end in TOPICS.items()
-        if getattr(recording, part) is not None
-    }
-    period = _period(*(timings[TOPICS[sensor]][0] for sensor in SENSORS))
+    timings = {end: timing(columns[0], begin) for end, columns in recording.streams.items()}
+    period = _period(*(timings[end][0] for end in _IMUS))
     stamps = [getattr(recording, sensor).stamp for sensor in SENSORS]
-    breaks = [timings[TOPICS[sensor]][1] for sensor in SENSORS]
+    breaks = [timings[end][1] for end in _IMUS]
     found = common_segments(stamps, breaks, period, begin, settle, SHORTEST_SETTLING, SHORTEST_MEASURING)
     last = int(min(stamp[-1] for stamp in stamps))
     if not found:

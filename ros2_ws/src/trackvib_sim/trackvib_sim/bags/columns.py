@@ -19,13 +19,13 @@ class Columns(NamedTuple):
 
     type_name: str  # of the messages
     kind: type  # of the record
-    fields: dict  # by column: first the name of a time in the message, then names and shapes of numbers
+    fields: dict  # by column: first the name of a time in the message, then names and shapes (-1: any) of numbers
 
-    @property
-    def row(self):
-        """Structured dtype of one message's numbers."""
+    def row(self, numbers):
+        """Structured dtype of a message's numbers, given that of its layout."""
         first, *others = self.fields.items()
-        return np.dtype([(first[0], np.int64), *((name, np.float64, shape) for name, (_, shape) in others)])
+        shapes = ((column, np.float64, numbers[field].shape) for column, (field, _) in others)
+        return np.dtype([(first[0], np.int64), *shapes])
 
     @property
     def wanted(self):
@@ -35,16 +35,16 @@ class Columns(NamedTuple):
 
 
 class Topic:
-    """The columns of a topic as they grow."""
+    """The columns of a topic as they grow; messages whose sequences differ in length have columns of their own."""
 
     def __init__(self, columns):
         self._columns = columns
-        self._file = TemporaryFile()  # noqa: SIM115, lives as long as the arrays
+        self._files = {}  # by dtype of a row
         self._layout = None
 
     def add(self, kind, data, start, size):
         """Add messages of a `cdr.Fields` that stand at places of some bytes."""
-        rows = np.empty(len(start), self._columns.row)
+        found = {}  # by dtype of a row, the messages and their rows
         left = np.arange(len(start))
         # one turn for messages whose frame is called alike, which is nearly always all of them
         while len(left):
@@ -54,9 +54,15 @@ class Topic:
                 message = data[first : first + size[left[0]]].tobytes()
                 self._layout = find_layout(kind, message, self._columns.wanted)
                 continue
+            row = self._columns.row(self._layout.numbers)
+            where, rows = found.setdefault(row, (np.zeros(len(start), bool), np.empty(len(start), row)))
+            where[left[fitting]] = True
             self._fill(rows, left[fitting], at(data, self._layout.numbers, start[left[fitting]]))
             left = left[~fitting]
-        self._file.write(rows.data)
+        for row, (where, rows) in found.items():
+            if row not in self._files:
+                self._files[row] = TemporaryFile()  # noqa: SIM115, lives as long as the arrays
+            self._files[row].write((rows if where.all() else rows[where]).data)
 
     def _fitting(self, data, start, size):
         if self._layout is None:
@@ -68,13 +74,17 @@ class Topic:
 
     def _fill(self, rows, where, numbers):
         seconds, nanoseconds, *names = self._columns.wanted
-        stamp, *columns = self._columns.row.names
+        stamp, *columns = rows.dtype.names
         rows[stamp][where] = numbers[seconds].astype(np.int64) * NANO + numbers[nanoseconds]
         for column, name in zip(columns, names, strict=True):
             rows[column][where] = numbers[name]
 
-    def columns(self):
-        """Return the record of columns, mapped into memory."""
-        self._file.flush()
-        rows = np.memmap(self._file, self._columns.row, "r")
+    def columns(self, wanted=lambda columns: True):
+        """Return the record of columns, mapped into memory: of those that are `wanted`, if any are, the longest."""
+        records = [self._mapped(*each) for each in self._files.items()]
+        return max(records, key=lambda record: (wanted(record), len(record[0])))
+
+    def _mapped(self, row, file):
+        file.flush()
+        rows = np.memmap(file, row, "r")
         return self._columns.kind(*(rows[name] for name in rows.dtype.names))

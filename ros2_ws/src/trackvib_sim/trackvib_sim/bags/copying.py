@@ -1,5 +1,7 @@
 """Copies what a bag holds into another one, byte for byte."""
 
+from dataclasses import replace
+
 from mcap.records import Attachment, Schema
 
 from .raw_messages import RawMessage, raw_records
@@ -27,10 +29,18 @@ def copy_bag(path, writer, wanted=lambda topic: True, attached=lambda name: True
         if kind not in copied:
             # what is left out may be written anew, and then with the definitions of here
             schema = record.schema if wanted(record.topic) else _installed(record.schema)
-            copied[kind] = writer.copy_topic(schema, record.channel)
+            copied[kind] = writer.copy_topic(schema, _described_by(schema, record))
         if record.message is not None and wanted(record.topic):
             writer.copy_message(copied[kind], record.message)
     return {topic for topic, *_ in copied}
+
+
+def _described_by(schema, record):
+    """Return the channel of a `RawMessage`, without the hash of its type if the schema is another one now."""
+    channel = record.channel
+    if schema is None or schema.data == record.schema.data:
+        return channel
+    return replace(channel, metadata={**channel.metadata, "topic_type_hash": ""})
 
 
 def _installed(schema):

@@ -53,7 +53,8 @@ class Definition:
             return self._known[detail]
         if node != Nodetype.BASE:
             inner, count = detail
-            return Repeated(self._kind(inner, name, depth), count if node == Nodetype.ARRAY else None)
+            kind = self._kind(inner, name, depth)
+            return Repeated(kind, count) if node == Nodetype.ARRAY else Repeated(kind, most=count or None)
         if detail[0] == "string":
             return TEXT
         if detail[0] not in NUMBERS:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 from mcap.records import Channel, Metadata, Schema
+from mr_mount_controller.mounting import MOST_COILS, MOST_MOUNTS, described, undescribed
 from mr_mount_controller.node_base import topics
 from rosbags.serde import SerdeError
 
@@ -28,16 +29,16 @@ _SENSOR = Columns(topics.IMU_TYPE, Inertial, {
     "specific_force": ("linear_acceleration", (3,)),
     "angular_velocity": ("angular_velocity", (3,)),
 })  # fmt: skip
-_BOTH = {name: (name, (2,)) for name in ("current", "stiffness", "damping")}
-_VECTORS = {name: (name, (2, 3)) for name in ("deflection", "velocity", "force")}
+_NUMBERS = {name: (name, (-1,)) for name in ("current", "stiffness", "damping")}
+_VECTORS = {name: (name, (-1, 3)) for name in ("deflection", "velocity", "force")}
 COLUMNS = {
     topics.CHASSIS_IMU: _SENSOR,
     topics.POWERTRAIN_IMU: _SENSOR,
     topics.MOUNT_STATE: Columns(topics.MOUNT_STATE_TYPE, Mounts, {
-        "stamp": "header.stamp", **_BOTH, **_VECTORS, "dissipated_power": ("dissipated_power", (2,)),
+        "stamp": "header.stamp", **_NUMBERS, **_VECTORS, "dissipated_power": ("dissipated_power", (-1,)),
     }),
     topics.COIL_CURRENT: Columns(topics.COIL_CURRENT_TYPE, Answers, {
-        "sample_stamp": "sample_stamp", "current": ("current", (2,)),
+        "sample_stamp": "sample_stamp", "current": ("current", (-1,)),
     }),
     topics.ODOMETRY: Columns(topics.ODOMETRY_TYPE, Odometry, {
         "stamp": "header.stamp", "position": ("pose.pose.position", (3,)), "speed": ("twist.twist.linear.x", ()),
@@ -47,9 +48,12 @@ _NEEDED = (topics.CHASSIS_IMU, topics.POWERTRAIN_IMU)
 _RARE = {  # read message by message
     topics.DIAGNOSTICS.removeprefix("/"): topics.DIAGNOSTICS_TYPE,
     topics.VEHICLE_DESCRIPTION: topics.VEHICLE_DESCRIPTION_TYPE,
+    topics.MOUNT_DESCRIPTION: topics.MOUNT_DESCRIPTION_TYPE,
     topics.ROAD_PROFILE: topics.ROAD_PROFILE_TYPE,
 }
 _TYPES = {end: columns.type_name for end, columns in COLUMNS.items()} | _RARE
+_FURTHER = topics.imu_topic("")  # stands for the end of every further sensor's topic
+_MOST_FURTHER = 100
 _ANSWERS = ("accepted", "late", "duplicate", "not_finite")  # to samples that were out, among the diagnostics
 # a definition that is damaged or not the one we know gives the others where it is applied
 _READ_ERRORS = (
@@ -103,7 +107,7 @@ class _Reading:
     """What has been read of a bag."""
 
     def __init__(self):
-        self._columns, self._roads, self._vehicles = {}, {}, {}  # by topic
+        self._columns, self._further, self._roads, self._vehicles, self._mountings = {}, {}, {}, {}, {}  # by topic
         self._loop_counts, self._diagnostics = [], {}
         self._provenance, self._counts, self._complete = {}, Counter(), True
 
@@ -131,7 +135,7 @@ class _Reading:
                     start, size = part.messages.start[of_channel], part.messages.size[of_channel]
                     self._counts[channel.topic] += len(start)
                     end = _end_of(channel.topic)
-                    if end is not None and schema is not None and schema.name == _TYPES[end]:
+                    if end is not None and schema is not None and schema.name == _TYPES.get(end, topics.IMU_TYPE):
                         if schema.id not in definitions:
                             definitions[schema.id] = Definition(schema.name, schema.encoding, schema.data)
                         self._take(channel.topic, end, definitions[schema.id], part.data, start, size)
@@ -145,10 +149,16 @@ class _Reading:
                 self._columns[topic] = Topic(COLUMNS[end])
             self._columns[topic].add(definition.kind, data, start, size)
             return
+        if end == _FURTHER:
+            if len(self._further) < _MOST_FURTHER:
+                self._further.setdefault(topic, Topic(_SENSOR)).add(definition.kind, data, start, size)
+            return
         for first, length in zip(start.tolist(), size.tolist(), strict=True):
             message = definition.message(data[first : first + length].data)
             if end == topics.VEHICLE_DESCRIPTION:
                 self._vehicles[topic] = message.data
+            elif end == topics.MOUNT_DESCRIPTION:
+                self._mountings[topic] = described(message)
             elif end == topics.ROAD_PROFILE:
                 # copies, for these arrays would keep the whole part in memory
                 heights = message.left.copy(), message.right.copy()
@@ -167,7 +177,7 @@ class _Reading:
     def recording(self, path):
         """Return it all."""
         found = {end: [] for end in _TYPES}
-        for topic in self._columns | self._roads | self._vehicles:
+        for topic in self._columns | self._roads | self._vehicles | self._mountings:
             found[_end_of(topic)].append(topic)
         missing = [end for end in _NEEDED if not found[end]]
         if missing:
@@ -181,7 +191,14 @@ class _Reading:
             for end, candidates in found.items()
             if candidates
         }
-        columns = {end: self._columns[chosen[end]].columns() if end in chosen else None for end in COLUMNS}
+        columns = {end: self._columns[chosen[end]].columns() for end in COLUMNS if end in chosen}
+        mounting = self._mounting(chosen, columns)
+        if topics.COIL_CURRENT in chosen:  # answers of another number of currents are none
+            fits = lambda answers: answers.current.shape[1] == mounting.coils  # noqa: E731
+            answers = self._columns[chosen[topics.COIL_CURRENT]].columns(fits)
+            columns[topics.COIL_CURRENT] = answers if fits(answers) else None
+        sensors = self._sensors(space)
+        chosen |= {topics.imu_topic(name): f"{space}{topics.imu_topic(name)}" for name in sensors}
         # the first word of the next run may be among the last ones of this
         counts = np.array(sorted(self._loop_counts), np.int64).reshape(-1, 3)
         return Recording(
@@ -189,9 +206,11 @@ class _Reading:
             topics=chosen,
             chassis=columns[topics.CHASSIS_IMU],
             powertrain=columns[topics.POWERTRAIN_IMU],
-            mounts=columns[topics.MOUNT_STATE],
-            answers=columns[topics.COIL_CURRENT],
-            odometry=columns[topics.ODOMETRY],
+            sensors=sensors,
+            mounting=mounting,
+            mounts=columns.get(topics.MOUNT_STATE),
+            answers=columns.get(topics.COIL_CURRENT),
+            odometry=columns.get(topics.ODOMETRY),
             road=self._roads.get(chosen.get(topics.ROAD_PROFILE), []),
             vehicle=self._vehicles.get(chosen.get(topics.VEHICLE_DESCRIPTION)),
             loop_counts=LoopCounts(*counts.T),
@@ -200,6 +219,36 @@ class _Reading:
             counts=self._counts,
             complete=self._complete,
         )
+
+    def _sensors(self, space):
+        """Return what further sensors there are beside chassis and powertrain, by name."""
+        found = {}
+        for topic in sorted(self._further):
+            name = topic.removeprefix(space).removesuffix(_FURTHER)
+            if "/" not in name and topic == f"{space}{topics.imu_topic(name)}":
+                found[name] = self._further[topic].columns()
+        return found
+
+    def _mounting(self, chosen, columns):
+        """Return the `Mounting` that is described, or else of as many coils and mounts as there are numbers."""
+        told, mounts = self._mountings.get(chosen.get(topics.MOUNT_DESCRIPTION)), columns.get(topics.MOUNT_STATE)
+        if mounts is None:
+            answers = columns.get(topics.COIL_CURRENT)
+            coils = count = told.coils if told else 2 if answers is None else answers.current.shape[1]
+        else:
+            coils, (count, *others) = mounts.current.shape[1], (column.shape[1] for column in mounts[2:])
+            if any(other != count for other in others) or coils > count:
+                raise ValueError(f"{topics.MOUNT_STATE} has {coils} currents and {count}, {others} numbers of mounts")
+        if coils > MOST_COILS or count > MOST_MOUNTS:
+            raise ValueError(f"it has {coils} coils and {count} mounts, accepted are {MOST_COILS} and {MOST_MOUNTS}")
+        if told is None:
+            return undescribed(coils, count)
+        if mounts is not None and (told.coils, len(told.mounts)) != (coils, count):
+            raise ValueError(
+                f"{topics.MOUNT_DESCRIPTION} tells of {told.coils} coils and {len(told.mounts)} mounts, "
+                f"{topics.MOUNT_STATE} has {coils} and {count}"
+            )
+        return told
 
 
 def _require_undamaged(walk):
@@ -211,4 +260,5 @@ def _require_undamaged(walk):
 
 def _end_of(topic):
     """Return by which of the known ends a topic is known; None by none."""
-    return next((end for end in _TYPES if f"/{topic}".endswith(f"/{end}")), None)
+    further = _FURTHER if topic.endswith(_FURTHER) else None
+    return next((end for end in _TYPES if f"/{topic}".endswith(f"/{end}")), further)

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from mr_mount_controller.mounting import Mounting
 from mr_mount_controller.node_base import topics
 
 from ..numerics.units import NANO
@@ -22,23 +23,23 @@ class Inertial(NamedTuple):
 
 
 class Mounts(NamedTuple):
-    """Both MR mounts over a run, left first; vectors in the hull's axes, as `trackvib_msgs/MountState` has them."""
+    """All n mounts over a run, those with a coil first; vectors in the hull's axes, as `MountState` has them."""
 
     stamp: np.ndarray  # (k,) ns
-    current: np.ndarray  # (k, 2) in the coil, A
-    stiffness: np.ndarray  # (k, 2) N/m
-    damping: np.ndarray  # (k, 2) N s/m
-    deflection: np.ndarray  # (k, 2, 3) from the unloaded place, m
-    velocity: np.ndarray  # (k, 2, 3) m/s
-    force: np.ndarray  # (k, 2, 3) on the powertrain, N
-    dissipated_power: np.ndarray  # (k, 2) W
+    current: np.ndarray  # (k, coils) in the coil, A
+    stiffness: np.ndarray  # (k, n) N/m
+    damping: np.ndarray  # (k, n) N s/m
+    deflection: np.ndarray  # (k, n, 3) from the unloaded place, m
+    velocity: np.ndarray  # (k, n, 3) m/s
+    force: np.ndarray  # (k, n, 3) on the powertrain, N
+    dissipated_power: np.ndarray  # (k, n) W
 
 
 class Answers(NamedTuple):
     """What the controller asked for, in the order of arrival."""
 
     sample_stamp: np.ndarray  # (m,) stamp of the sample that each current answers, ns
-    current: np.ndarray  # (m, 2) demanded, A
+    current: np.ndarray  # (m, coils) demanded, A
 
 
 class Odometry(NamedTuple):
@@ -65,7 +66,7 @@ class Recording(NamedTuple):
     With `bag` the path of a bag:
 
     >>> import trackvib_sim as tv
-    >>> tv.read_recording(bag).mounts.force.shape[1:]  # left and right mount, x y z
+    >>> tv.read_recording(bag).mounts.force.shape[1:]  # mounts, x y z
     (2, 3)
     """
 
@@ -73,6 +74,8 @@ class Recording(NamedTuple):
     topics: dict  # end of a topic's name -> whole name
     chassis: Inertial
     powertrain: Inertial
+    sensors: dict  # further ones: name -> `Inertial`
+    mounting: Mounting  # what the mounts are called; of a bag that does not tell as `mounting.undescribed` does
     mounts: Mounts | None
     answers: Answers | None
     odometry: Odometry | None
@@ -83,6 +86,19 @@ class Recording(NamedTuple):
     provenance: dict  # metadata records of the bag: name -> dict of text
     counts: Counter  # messages a topic
     complete: bool  # False where the bag was cut short
+
+    @property
+    def streams(self):
+        """What was measured, asked for and odometry: end of a topic's name -> columns, the stamps first."""
+        parts = {
+            topics.CHASSIS_IMU: self.chassis,
+            topics.POWERTRAIN_IMU: self.powertrain,
+            topics.MOUNT_STATE: self.mounts,
+            topics.COIL_CURRENT: self.answers,
+            topics.ODOMETRY: self.odometry,
+            **{topics.imu_topic(name): sensor for name, sensor in self.sensors.items()},
+        }
+        return {end: columns for end, columns in parts.items() if columns is not None}
 
     def require(self, *parts):
         """Make sure that this is one run, with some optional parts: "mounts", "road", "vehicle".
@@ -95,13 +111,8 @@ class Recording(NamedTuple):
         missing = [_TOPIC_OF[part] for part in parts if not getattr(self, part)]
         if missing:
             raise BagError(f"bag {str(self.path)!r} holds no messages on {', '.join(missing)}")
-        streams = {
-            topics.CHASSIS_IMU: self.chassis,
-            topics.POWERTRAIN_IMU: self.powertrain,
-            topics.MOUNT_STATE: self.mounts,
-        }
-        for end, stream in streams.items():
-            back = np.flatnonzero(np.diff(stream.stamp) <= 0) if stream is not None else ()
+        for end, stream in self.streams.items():
+            back = np.flatnonzero(np.diff(stream[0]) <= 0) if isinstance(stream, (Inertial, Mounts)) else ()
             if len(back):
                 after = f"after t = {stream.stamp[back[0]] / NANO:.3f} s {self.topics[end]} begins anew"
                 raise BagError(f"bag {str(self.path)!r} holds more than one run: {after}")

@@ -11,7 +11,7 @@ _LEAST_STEP = {
     topics.CLOCK_TYPE: 0,
     topics.ODOMETRY_TYPE: 0,
 }
-# One of each comes every period, whatever the partners do.
+# They come every period, or every so many periods, whatever the partners do.
 _EVERY_PERIOD = (topics.IMU_TYPE, topics.MOUNT_STATE_TYPE)
 _ANSWER = topics.COIL_CURRENT_TYPE
 END_OF_TIME = (2**31 - 1) * NANO  # ns; the latest whole second that a stamp can hold
@@ -26,19 +26,21 @@ class Timekeeping:
         self.latest = 0  # ns, of all stamps so far
         self._doubted = {}  # topic -> latest stamp far ahead of all others, ns
         self._keepers = {}  # topic -> latest stamp, ns
-        self._paced = set()  # topics that come every period
+        self._paced = {}  # topic that comes every period, or every so many periods -> its least step, ns
         self._types = set()  # of the topics that are recorded
         self._answered = 0  # ns, latest stamp of an answer
 
     @property
     def complete_until(self):
-        """Time [ns] up to which the samples are there: of several topics, the slowest.
+        """Time [ns] up to which the samples are there: of several topics, the one that is the farthest behind.
 
-        `END_OF_TIME` if none are recorded, for then none is missing.
+        A topic that comes every so many periods is behind when its next message is due. `END_OF_TIME` if none are
+        recorded, for then none is missing.
         """
         if self._types.isdisjoint(_EVERY_PERIOD):
             return END_OF_TIME
-        return min((self._keepers[topic] for topic in self._paced), default=self.latest)
+        behind = (stamp for topic, step in self._paced.items() if (stamp := self._keepers[topic]) + step <= self.latest)
+        return min(behind, default=self.latest)
 
     @property
     def answered_until(self):
@@ -67,10 +69,11 @@ class Timekeeping:
             return stamp
         if stamp < self._keepers.get(topic, 0) + least_step:
             return None
+        if type_name in _EVERY_PERIOD:
+            step = stamp - self._keepers.get(topic, 0)
+            self._paced[topic] = min(step, self._paced.get(topic, step))
         self._keepers[topic] = stamp
         self.latest = max(self.latest, stamp)
-        if type_name in _EVERY_PERIOD:
-            self._paced.add(topic)
         return stamp
 
     def _believable(self, topic, stamp):

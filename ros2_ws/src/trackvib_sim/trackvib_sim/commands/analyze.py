@@ -106,12 +106,12 @@ def _mounts(analyses):
     for name in ("travel", "peak", "force", "peak", "heat, W", "mean", "least", "most"):
         table.add_column(name, justify="right")
     for mounts in _sections(table, analyses, "mounts"):
-        for side, mount in mounts.items():
+        for name, mount in mounts.items():
             z, current = mount.axes["z"], mount.current
             lengths, forces = (z.travel_rms, z.travel_peak), (z.force_rms, z.force_peak)
             numbers = (*(1e3 * each for each in lengths), *(1e-3 * each for each in forces), mount.power_dissipated,
                        current.mean, current.least, current.greatest)  # fmt: skip
-            table.add_row(side, *(f"{each:.2f}" for each in numbers))
+            table.add_row(name, *(f"{each:.2f}" for each in numbers))
     return table
 
 

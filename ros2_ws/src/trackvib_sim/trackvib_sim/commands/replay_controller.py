@@ -51,7 +51,7 @@ def run_replay_controller(bag, law, out, console):
         replayed, interrupt = _replay_into_bag(recording, law, folder, console)
         summary |= {
             "answered": len(replayed),
-            **_compare(_answers(recording), replayed, folder / "currents.png", title),
+            **_compare(_answers(recording), replayed, recording.mounting.names, folder / "currents.png", title),
         }
         (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
     if interrupt is not None:
@@ -82,7 +82,10 @@ def _replay_into_bag(recording, law, folder, console):
 def _replay(recording, law, writer, replayed, folder, console):
     """Add the controller's currents by stamp [ns] to `replayed`, and to the bag, as they come."""
     topics, stamps = recording.topics, recording.chassis.stamp
-    with _controller(law, round(NANO / period_of(stamps)), folder) as check, ControllerTrial() as trial:
+    with (
+        _controller(law, round(NANO / period_of(stamps)), folder) as check,
+        ControllerTrial(recording.mounting) as trial,
+    ):
         if law is None:
             console.print(f"waiting for a controller that listens to {CHASSIS_IMU} or {POWERTRAIN_IMU} and answers on "
                           f"{COIL_CURRENT}", soft_wrap=True)  # fmt: skip
@@ -99,7 +102,7 @@ def _replay(recording, law, writer, replayed, folder, console):
 
 
 def _answers(recording):
-    """Return the recorded currents (2,) [A] by sample stamp [ns], the first to each."""
+    """Return the recorded currents (coils,) [A] by sample stamp [ns], the first to each."""
     currents = {}
     if recording.answers is not None:
         for stamp, current in zip(*(column.tolist() for column in recording.answers), strict=True):
@@ -127,13 +130,13 @@ def _controller(law, rate, folder):
         processes.stop()
 
 
-def _compare(recorded, replayed, picture, title):
+def _compare(recorded, replayed, coils, picture, title):
     """Return how far the currents are apart [A], where both are, and draw them; empty if they never are."""
     both = sorted(recorded.keys() & replayed.keys())
     if not both:
         return {"compared": 0}
     old, new = (np.array([currents[stamp] for stamp in both]) for currents in (recorded, replayed))
-    currents_picture(np.array(both) / NANO, old, new, title, picture)
+    currents_picture(np.array(both) / NANO, old, new, coils, title, picture)
     difference = new - old
     return {
         "compared": len(both),

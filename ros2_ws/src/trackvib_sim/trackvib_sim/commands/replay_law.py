@@ -12,7 +12,7 @@ from ..analysis.analyse import analyse
 from ..analysis.numbers import AXES, SENSORS
 from ..analysis.picture_data import prepare
 from ..analysis.replay_pictures import drives_picture
-from ..analysis.segments import TOPICS, TooShort
+from ..analysis.segments import TooShort
 from ..analysis.stamps import start_of
 from ..analysis.summary import summarise
 from ..bags.copying import copy_bag
@@ -79,7 +79,7 @@ def _drive(recording, simulation, chosen, law, path, console):
     writer = BagWriter(path)
     ended, lockstep = "driven to the recorded end", None
     try:
-        constant = (topics.ROAD_PROFILE, topics.VEHICLE_DESCRIPTION)
+        constant = (topics.ROAD_PROFILE, topics.VEHICLE_DESCRIPTION, topics.MOUNT_DESCRIPTION)
         controller, _ = parameters_with(recording.provenance, "law")
         other = ("versions.yaml", f"parameters{controller}.yaml")
         known = copy_bag(recording.path, writer, lambda topic: topic.endswith(constant), lambda name: name not in other)
@@ -125,24 +125,28 @@ def _between(recording, begin, last, other):
     So levels are compared over the same instants: a bag may begin in the middle of a run or lack samples, a rerun
     begins at the start, lacks none, and may end early.
     """
-    cut = {}
-    for part in TOPICS:
-        columns = getattr(recording, part)
+
+    def cut_out(columns, others=None):
         if columns is None:
-            continue
+            return None
         kept = (columns[0] > begin) & (columns[0] <= last)
-        if part in SENSORS:
-            kept &= np.isin(columns[0], getattr(other, part).stamp)
-        cut[part] = type(columns)(*(column[kept] for column in columns)) if kept.any() else None
+        if others is not None:
+            kept &= np.isin(columns[0], others.stamp)
+        return type(columns)(*(column[kept] for column in columns)) if kept.any() else None
+
+    cut = {sensor: cut_out(getattr(recording, sensor), getattr(other, sensor)) for sensor in SENSORS}
+    cut |= {part: cut_out(getattr(recording, part)) for part in ("mounts", "answers", "odometry")}
+    further = {name: cut_out(sensor) for name, sensor in recording.sensors.items()}
+    cut["sensors"] = {name: sensor for name, sensor in further.items() if sensor is not None}
     # when the whole run ended says nothing about a part of it
     diagnostics = {key: text for key, text in recording.diagnostics.items() if key != "time"}
     return recording._replace(diagnostics=diagnostics, **cut)
 
 
 def _currents(recording, begin):
-    """Times [s] from a stamp [ns] on and demanded currents (k, 2) [A] of all answers."""
+    """Times [s] from a stamp [ns] on and demanded currents (k, coils) [A] of all answers."""
     if recording.answers is None:
-        return np.empty(0), np.empty((0, 2))
+        return np.empty(0), np.empty((0, recording.mounting.coils))
     return (recording.answers.sample_stamp - begin) / NANO, recording.answers.current
 
 

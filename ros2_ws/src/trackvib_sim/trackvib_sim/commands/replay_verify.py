@@ -6,16 +6,16 @@ from typing import NamedTuple
 import numpy as np
 from mr_mount_controller.node_base import topics
 
-from ..analysis.numbers import AXES, SIDES
+from ..analysis.numbers import AXES
 from ..bags.reading import COLUMNS, read_recording
 from ..bags.versions import versions
 from ..console import followed
 from ..nodes.simulator_parameters import prepare_again
 from ..numerics.units import NANO
+from ..simulation.readings import Readings
 from ..simulation.recorded_currents import NotTold, currents_in_force
-from ..simulation.simulation import CHASSIS, POWERTRAIN, RunFailed
+from ..simulation.simulation import RunFailed
 
-_PLACES = {2: SIDES, 3: AXES}  # along each dimension of a column, by its length
 _TAIL = NANO  # ns at the end of a bag in which its topics need not end together
 
 
@@ -55,12 +55,12 @@ def verify(bag, console):
     simulation, values = prepare_again(recording)
     if values["pace"] != "lockstep":
         raise NotVerifiable("its run followed the wall clock (pace is 'realtime'), so it depends on the machine")
+    _require_same_mounts(recording.mounting, simulation.mounting)
+    mounts = _Stream(recording, topics.MOUNT_STATE, simulation.mounting.names)
+    recorded = [name for name, _ in simulation.sensors if topics.imu_topic(name) in recording.streams]
+    sensors = {name: _Stream(recording, topics.imu_topic(name)) for name in recorded}
     # the mounts first: a wrong current is seen there by its name
-    mounts, chassis, powertrain = streams = (
-        _Stream(recording, topics.MOUNT_STATE, recording.mounts),
-        _Stream(recording, topics.CHASSIS_IMU, recording.chassis),
-        _Stream(recording, topics.POWERTRAIN_IMU, recording.powertrain),
-    )
+    streams, readings = (mounts, *sensors.values()), Readings(simulation)
     rates, last = simulation.settings.rates, int(max(stream.stamp[-1] for stream in streams))
     answered = last if recording.answers is None else recording.answers.sample_stamp.max()
     for stream in streams:
@@ -83,11 +83,10 @@ def verify(bag, console):
         except RunFailed as failure:
             return False, f"different: replayed, {failure}; the recorded run goes on{other}"
         time, sample = simulation.time, simulation.sample
-        difference = (
-            mounts.difference(time, sample.mounts)
-            or chassis.difference(time, (sample.specific_force[CHASSIS], sample.angular_velocity[CHASSIS]))
-            or powertrain.difference(time, (sample.specific_force[POWERTRAIN], sample.angular_velocity[POWERTRAIN]))
-        )
+        difference = mounts.difference(time, sample.mounts)
+        for name, reading in readings.take().items():
+            if name in sensors:
+                difference = difference or sensors[name].difference(time, reading)
         if difference:
             return False, f"different: {difference}{other}"
     if not all(stream.compared for stream in streams):
@@ -100,11 +99,12 @@ def verify(bag, console):
 class _Stream:
     """A recorded topic beside which samples are set, one after the other."""
 
-    def __init__(self, recording, end, columns):
-        """Take the end of the topic's name and its columns, the stamps first."""
-        self.topic, self.compared = recording.topics[end], 0
-        self.stamp, *self._columns = map(np.asarray, columns)
-        self._fields = [field for field, _ in list(COLUMNS[end].fields.values())[1:]]
+    def __init__(self, recording, end, mounts=()):
+        """Take the end of the topic's name, and what the mounts are called if it is theirs."""
+        self.topic, self.compared, self._mounts = recording.topics[end], 0, mounts
+        self.stamp, *self._columns = map(np.asarray, recording.streams[end])
+        fields = COLUMNS.get(end, COLUMNS[topics.CHASSIS_IMU]).fields
+        self._fields = [field for field, _ in list(fields.values())[1:]]
 
     def difference(self, time, values):
         """Set the sample of a time [ns] beside the recorded one; returns the first `Difference` of its bits, if any."""
@@ -116,10 +116,16 @@ class _Stream:
             recorded = column[place]
             if recorded.tobytes() != replayed.tobytes():
                 where = tuple(np.argwhere(recorded.view(np.uint64) != replayed.view(np.uint64))[0])
-                names = (_PLACES[size][index] for size, index in zip(replayed.shape, where, strict=True))
-                channel = ".".join((field, *names))
+                places = (self._mounts, AXES) if self._mounts else (AXES,)
+                channel = ".".join((field, *(names[index] for names, index in zip(places, where, strict=False))))
                 return Difference(time, self.topic, channel, float(recorded[where]), float(replayed[where]))
         return None
+
+
+def _require_same_mounts(recorded, simulated):
+    there, here = ((mounting.coils, len(mounting.mounts)) for mounting in (recorded, simulated))
+    if there != here:
+        raise NotVerifiable("it tells of {} coils and {} mounts, its vehicle has {} and {}".format(*there, *here))
 
 
 def _after(simulation, streams, reason):

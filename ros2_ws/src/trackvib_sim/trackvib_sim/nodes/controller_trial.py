@@ -10,12 +10,13 @@ from mr_mount_controller.node_base.listener import Listener
 from mr_mount_controller.node_base.loop_node import start_ros
 from mr_mount_controller.node_base.packed_message import MessageReader
 from mr_mount_controller.node_base.patience import Patience
-from mr_mount_controller.node_base.qos import LOOP_QOS, LOOP_WRITER_QOS
+from mr_mount_controller.node_base.qos import LATCHED_QOS, LOOP_QOS, LOOP_WRITER_QOS
 from rclpy.experimental import EventsExecutor
 from sensor_msgs.msg import Imu
-from trackvib_msgs.msg import CoilCurrent
+from trackvib_msgs.msg import CoilCurrent, MountDescription
 
 from ..simulation.lockstep import Lockstep
+from .messages import mount_description
 from .partners import Gathering
 
 _ANSWER_TIMEOUT = 1.0  # s of wall time after which the controller is silent
@@ -25,19 +26,28 @@ _TICK = 0.1  # s
 class Answer(NamedTuple):
     """A controller's answer to a sample."""
 
-    current: tuple  # (2,) A
+    current: tuple  # (coils,) A
     data: bytes  # the message
 
 
 class ControllerTrial:
-    """A node that speaks to the controller as the simulator does; use as a context manager."""
+    """A node that speaks to the controller as the simulator does; use as a context manager.
+
+    Parameters
+    ----------
+    mounting : mr_mount_controller.mounting.Mounting
+        What the controller is told.
+    """
+
+    def __init__(self, mounting):
+        self._mounting = mounting
 
     def __enter__(self):
         start_ros()
         self._node = rclpy.create_node("replay")
         self._imus = [self._node.create_publisher(Imu, topic, LOOP_WRITER_QOS)
                       for topic in (topics.CHASSIS_IMU, topics.POWERTRAIN_IMU)]  # fmt: skip
-        self._reader = MessageReader(CoilCurrent, "sample_stamp", {"current": 2})
+        self._reader = MessageReader(CoilCurrent, "sample_stamp", {"current": self._mounting.coils})
         self._answers = Listener(
             self._node,
             CoilCurrent,
@@ -49,7 +59,9 @@ class ControllerTrial:
         self._executor = EventsExecutor()
         self._executor.add_node(self._node)
         self._patience = Patience(self._spin)
-        self._lockstep = Lockstep(0.0, (-np.inf, np.inf))
+        self._lockstep = Lockstep(self._mounting.coils, 0.0, (-np.inf, np.inf))
+        self._description = self._node.create_publisher(MountDescription, topics.MOUNT_DESCRIPTION, LATCHED_QOS)
+        self._description.publish(mount_description(self._mounting))
         self._latest = None
         self._heard, self._given_up = -1, None  # latest sample answered, now and when silence fell, ns
         return self

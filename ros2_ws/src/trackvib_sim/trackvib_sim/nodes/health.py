@@ -23,11 +23,10 @@ def health(control, simulation, lockstep, phases, silent, controllers):
 
 def progress(simulation, lockstep):
     """Return what a run itself tells by name, whoever runs it: time, currents in force, counts, work on the mounts."""
-    left, right = lockstep.currents.tolist()
+    coils = zip(simulation.mounting.names, lockstep.currents.tolist(), strict=False)  # of the first mounts
     return {
         "time": simulation.time / NANO,
-        "current_left": left,
-        "current_right": right,
+        **{f"current_{name}": current for name, current in coils},
         **lockstep.counts,
         **{
             f"mount_{part}_J": energy

@@ -5,11 +5,12 @@ from importlib import import_module
 
 from ament_index_python.packages import get_package_share_directory
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from geometry_msgs.msg import Vector3
 from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.packed_message import PackedMessage
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu
-from trackvib_msgs.msg import MountState
+from trackvib_msgs.msg import Mount, MountDescription, MountState
 
 from ..numerics.units import NANO
 
@@ -59,17 +60,34 @@ class ImuMessage:
 
 
 class MountMessage:
-    """State of both mounts."""
+    """State of all mounts.
 
-    def __init__(self):
+    Parameters
+    ----------
+    sample : vehicle.mounts.MountSample
+        One of those that it will be filled with; tells how many coils and mounts there are.
+    """
+
+    def __init__(self, sample):
         message = MountState()
         message.header.frame_id = topics.HULL_FRAME
-        fields = dict.fromkeys(("current", "stiffness", "damping", "dissipated_power"), 2)
-        self._packed = PackedMessage(message, fields | dict.fromkeys(("deflection", "velocity", "force"), 6))
+        for name, values in sample._asdict().items():
+            setattr(message, name, [0.0 if values.ndim == 1 else Vector3() for _ in values])
+        self._packed = PackedMessage(message, {name: values.size for name, values in sample._asdict().items()})
 
     def fill(self, stamp, sample):
-        """Return the message's bytes for a `vehicle.mounts.MountSample`."""
+        """Return the message's bytes."""
         return self._packed.fill(stamp, **sample._asdict())
+
+
+def mount_description(mounting):
+    """Return the message that describes a `mr_mount_controller.mounting.Mounting`."""
+    message = MountDescription(turning=[bool(axis) for axis in mounting.turning])
+    message.header.frame_id = topics.CHASSIS_FRAME
+    for mount in mounting.mounts:
+        message.mounts.append(Mount(name=mount.name, kind=int(mount.kind)))
+        set_vector(message.mounts[-1].place, mount.place)
+    return message
 
 
 class OdometryMessage:

@@ -10,11 +10,12 @@ from rclpy.duration import Duration
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu
 from std_msgs.msg import String
-from trackvib_msgs.msg import MountState
+from trackvib_msgs.msg import MountDescription, MountState
 
 from ..numerics.units import NANO
-from ..simulation.simulation import CHASSIS, POWERTRAIN
-from .messages import ImuMessage, MountMessage, OdometryMessage, diagnostics
+from ..simulation.readings import Readings
+from ..simulation.simulation import POWERTRAIN
+from .messages import ImuMessage, MountMessage, OdometryMessage, diagnostics, mount_description
 
 DIAGNOSTICS_RATE = 10  # Hz of simulated time
 _FLUSH = 4.0  # s for the last messages to arrive
@@ -27,38 +28,42 @@ class SimulatorOutput:
         self._simulation = simulation
         rates = simulation.settings.rates
         self._periods_an_odometry = rates.control // rates.odometry
-        self._imus = (ImuMessage(topics.CHASSIS_FRAME), ImuMessage(topics.POWERTRAIN_FRAME))
-        self._mounts, self._odometry, self._time = MountMessage(), OdometryMessage(), Clock()
-        self._imu_out = (
-            node.create_publisher(Imu, topics.CHASSIS_IMU, LOOP_WRITER_QOS),
-            node.create_publisher(Imu, topics.POWERTRAIN_IMU, LOOP_WRITER_QOS),
-        )
+        self._readings, sensors = Readings(simulation), [sensor.name for sensor in simulation.sensors]
+        self._imus = {sensor: ImuMessage(topics.imu_frame(sensor)) for sensor in sensors}
+        self._mounts, self._odometry, self._time = MountMessage(simulation.sample.mounts), OdometryMessage(), Clock()
+        # whoever waits for chassis and powertrain finds the others there as well
+        self._imu_out = {
+            sensor: node.create_publisher(Imu, topics.imu_topic(sensor), LOOP_WRITER_QOS)
+            for sensor in reversed(sensors)
+        }
+        self._loop_out = [self._imu_out[sensor] for sensor in sensors[: POWERTRAIN + 1]]
         self._mount_out = node.create_publisher(MountState, topics.MOUNT_STATE, LOOP_WRITER_QOS)
         self._odometry_out = node.create_publisher(Odometry, topics.ODOMETRY, LATCHED_QOS)
         self._clock_out = node.create_publisher(Clock, topics.CLOCK, CLOCK_QOS)
         self._diagnostics_out = node.create_publisher(DiagnosticArray, topics.DIAGNOSTICS, LOOP_WRITER_QOS)
         self._vehicle_out = node.create_publisher(String, topics.VEHICLE_DESCRIPTION, LATCHED_QOS)
         self._vehicle_text = vehicle_text
+        self._description_out = node.create_publisher(MountDescription, topics.MOUNT_DESCRIPTION, LATCHED_QOS)
 
     def introduce(self):
-        """Publish what the partners need before the start: where the vehicle stands, and what it is.
+        """Publish what the partners need before the start: where the vehicle stands, what it is, and its mounts.
 
         The time comes first, for it may tell them that a new run begins.
         """
         self.publish_odometry()
+        self._description_out.publish(mount_description(self._simulation.mounting))
         self._vehicle_out.publish(String(data=self._vehicle_text))
 
     def listeners(self):
         """Return how many listen to the Imu of the chassis and of the powertrain."""
-        return [publisher.get_subscription_count() for publisher in self._imu_out]
+        return [publisher.get_subscription_count() for publisher in self._loop_out]
 
     def publish_sample(self):
         """Publish the sample of the last period; odometry and clock where it is their turn."""
         simulation, stamp = self._simulation, self._simulation.time
-        force, rate = simulation.sample.specific_force, simulation.sample.angular_velocity
-        # the accelerations first: whoever answers them works while the rest is published
-        for sensor in (CHASSIS, POWERTRAIN):
-            self._imu_out[sensor].publish(self._imus[sensor].fill(stamp, force[sensor], rate[sensor]))
+        # the accelerations first, of chassis and powertrain: whoever answers them works while the rest is published
+        for sensor, reading in self._readings.take().items():
+            self._imu_out[sensor].publish(self._imus[sensor].fill(stamp, *reading))
         self._mount_out.publish(self._mounts.fill(stamp, simulation.sample.mounts))
         if simulation.periods % self._periods_an_odometry == 0:
             self.publish_odometry()
@@ -83,5 +88,5 @@ class SimulatorOutput:
     def flush(self):
         """Let what was published arrive."""
         end = time.monotonic() + _FLUSH
-        for publisher in (*self._imu_out, self._mount_out, self._odometry_out, self._diagnostics_out):
+        for publisher in (*self._imu_out.values(), self._mount_out, self._odometry_out, self._diagnostics_out):
             publisher.wait_for_all_acked(Duration(seconds=max(end - time.monotonic(), 0.0)))

@@ -6,6 +6,7 @@ from collections import deque
 from fnmatch import fnmatchcase
 from itertools import groupby
 
+from mr_mount_controller.node_base.cdr import LayoutError
 from mr_mount_controller.node_base.loop_node import LoopNode, NodeError, run_node
 from mr_mount_controller.node_base.parameters import Parameter, ParameterError
 from mr_mount_controller.node_base.qos import CLOCK_QOS
@@ -20,6 +21,7 @@ from ..bags.limits import LARGEST_CHUNKS, largest_chunk
 from ..bags.playing import is_best_effort, is_latched, open_bag
 from ..numerics.units import NANO
 from .messages import message_type
+from .older_messages import renewal
 from .partners import Gathering
 from .run_control import RunControl
 
@@ -61,9 +63,12 @@ class PlayerNode(LoopNode):
         self._begin = self._time
         self._connections = self._chosen()
         self._outputs = {}  # by topic in the bag
+        self._renewals = {}  # of connections whose type has changed since, by their numbers
         for connection in self._connections:
             if connection.topic not in self._outputs:
                 self._outputs[connection.topic] = self._publisher(connection)
+            if renew := renewal(connection, message_type(connection.msgtype)):
+                self._renewals[id(connection)] = renew
         self._clock_out = self.create_publisher(Clock, CLOCK, CLOCK_QOS)
         self._origin = 0.0  # wall time at which the time of the bag would be zero, s
 
@@ -141,7 +146,7 @@ class PlayerNode(LoopNode):
             if not self._wait_until(stamp):
                 return
             for connection, _, data in instant:
-                self._outputs[connection.topic].publish(bytes(data))
+                self._publish(connection, data)
             self._control.end_period()
         if self._wait_until(self._end):
             self._publish_clock()
@@ -153,10 +158,19 @@ class PlayerNode(LoopNode):
             return
         kept = {connection.topic: deque(maxlen=_DEPTH) for connection in latched}
         for connection, _, data in self._reader.messages(latched, stop=self._begin):
-            kept[connection.topic].append(bytes(data))
-        for topic, messages in kept.items():
-            for data in messages:
-                self._outputs[topic].publish(data)
+            kept[connection.topic].append((connection, bytes(data)))
+        for messages in kept.values():
+            for connection, data in messages:
+                self._publish(connection, data)
+
+    def _publish(self, connection, data):
+        data = bytes(data)
+        if renew := self._renewals.get(id(connection)):
+            try:
+                data = renew(data)
+            except LayoutError as error:
+                raise NodeError(f"{connection.topic} cannot be played: {error}") from None
+        self._outputs[connection.topic].publish(data)
 
     def _wait_until(self, stamp):
         """Wait for a time of the bag [ns], however long the player is paused; returns whether to go on."""

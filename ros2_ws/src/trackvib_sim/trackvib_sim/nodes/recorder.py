@@ -30,6 +30,7 @@ DEFAULT_TOPICS = [
     topics.ODOMETRY,
     topics.ROAD_PROFILE,
     topics.VEHICLE_DESCRIPTION,
+    topics.MOUNT_DESCRIPTION,
     topics.CLOCK,
     topics.DIAGNOSTICS,
 ]

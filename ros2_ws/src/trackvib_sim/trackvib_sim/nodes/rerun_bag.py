@@ -6,7 +6,7 @@ from rosgraph_msgs.msg import Clock
 from trackvib_msgs.msg import CoilCurrent
 
 from ..numerics.units import NANO
-from ..simulation.simulation import CHASSIS, POWERTRAIN
+from ..simulation.readings import Readings
 from .health import progress
 from .messages import ImuMessage, MountMessage, OdometryMessage, diagnostics, set_stamp
 from .output import DIAGNOSTICS_RATE
@@ -21,8 +21,9 @@ class RerunBag:
         rates = simulation.settings.rates
         self._periods_an_odometry = rates.control // rates.odometry
         self._periods_a_diagnosis = rates.control // DIAGNOSTICS_RATE
-        self._chassis, self._powertrain = ImuMessage(topics.CHASSIS_FRAME), ImuMessage(topics.POWERTRAIN_FRAME)
-        self._mounts, self._odometry = MountMessage(), OdometryMessage()
+        self._readings = Readings(simulation)
+        self._imus = {name: ImuMessage(topics.imu_frame(name)) for name, _ in simulation.sensors}
+        self._mounts, self._odometry = MountMessage(simulation.sample.mounts), OdometryMessage()
         self._clock, self._answer = Clock(), CoilCurrent()
 
     def begin(self):
@@ -33,9 +34,8 @@ class RerunBag:
         """Write the sample of the last period and its answer, which a `Lockstep` holds."""
         simulation = self._simulation
         stamp, sample = simulation.time, simulation.sample
-        force, rate = sample.specific_force, sample.angular_velocity
-        self._write(topics.CHASSIS_IMU, self._chassis.fill(stamp, force[CHASSIS], rate[CHASSIS]))
-        self._write(topics.POWERTRAIN_IMU, self._powertrain.fill(stamp, force[POWERTRAIN], rate[POWERTRAIN]))
+        for sensor, reading in self._readings.take().items():
+            self._write(topics.imu_topic(sensor), self._imus[sensor].fill(stamp, *reading))
         self._write(topics.MOUNT_STATE, self._mounts.fill(stamp, sample.mounts))
         if simulation.periods % self._periods_an_odometry == 0:
             self._write_odometry()
@@ -43,7 +43,7 @@ class RerunBag:
             self.write_diagnostics("running", lockstep)
         set_stamp(self._answer, stamp)
         self._answer.sample_stamp = self._answer.header.stamp
-        self._answer.current = lockstep.currents
+        self._answer.current = lockstep.currents.tolist()
         self._write(topics.COIL_CURRENT, serialize_message(self._answer))
 
     def write_diagnostics(self, state, lockstep):

@@ -38,7 +38,7 @@ class SimulatorNode(LoopNode):
         self._warned = False  # of several controllers
 
         self._output = SimulatorOutput(self, self._simulation, vehicle_text)
-        answer = MessageReader(CoilCurrent, "sample_stamp", {"current": 2})
+        answer = MessageReader(CoilCurrent, "sample_stamp", {"current": self._simulation.mounting.coils})
         self._answers = self.listen(CoilCurrent, topics.COIL_CURRENT, self._on_answer, LOOP_QOS, answer.read)
         self.listen(RoadProfile, topics.ROAD_PROFILE, self._on_road, ROAD_QOS)
         self._control = RunControl(self, self._time)
@@ -51,7 +51,8 @@ class SimulatorNode(LoopNode):
 
     def _begin_counts(self):
         """Begin all that a run counts."""
-        self._lockstep = Lockstep(self.settings["passive_current"], self._usable, self._waits_for_answers)
+        coils = self._simulation.mounting.coils
+        self._lockstep = Lockstep(coils, self.settings["passive_current"], self._usable, self._waits_for_answers)
         self._phases = PhaseClock("physics", "publishing", "answer", "holding")
         self._silent = False  # no answer came in time; the loop runs on without waiting
         self._heard = self._heard_before = -1  # latest sample that somebody has answered, now and when silence fell, ns

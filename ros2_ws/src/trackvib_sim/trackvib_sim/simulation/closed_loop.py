@@ -24,10 +24,10 @@ class Record(NamedTuple):
     stamp: np.ndarray  # (k,) ns
     specific_force: np.ndarray  # (k, 2, 3) m/s^2, chassis and powertrain
     angular_velocity: np.ndarray  # (k, 2, 3) rad/s
-    current: np.ndarray  # (k, 2) demanded in answer to the row's sample, A
-    coil_current: np.ndarray  # (k, 2) at the end of the period, A
-    deflection: np.ndarray  # (k, 2, 3) of the mounts at the end of the period, hull axes, m
-    force: np.ndarray  # (k, 2, 3) of the mounts on the powertrain at the same time, hull axes, N
+    current: np.ndarray  # (k, coils) demanded in answer to the row's sample, A
+    coil_current: np.ndarray  # (k, coils) at the end of the period, A
+    deflection: np.ndarray  # (k, mounts, 3) at the end of the period, hull axes, m
+    force: np.ndarray  # (k, mounts, 3) on the powertrain at the same time, hull axes, N
 
 
 def run_closed_loop(simulation: Simulation, road: HasHeights, law: ControlLaw, periods: int) -> Record:
@@ -59,7 +59,8 @@ def run_closed_loop(simulation: Simulation, road: HasHeights, law: ControlLaw, p
         for start, spacing, heights in feeder.patches(simulation.distance):
             simulation.road.add(start, spacing, *heights)
 
-    shapes = ((2, 3), (2, 3), (2,), (2,), (2, 3), (2, 3))
+    coils, mounts = (simulation.mounting.coils,), (len(simulation.mounting.mounts), 3)
+    shapes = ((2, 3), (2, 3), coils, coils, mounts, mounts)
     record = Record(np.zeros(periods, dtype=np.int64), *(np.zeros((periods, *shape)) for shape in shapes))
     for k, lockstep in zip(range(periods), periods_under_law(simulation, law, feed), strict=False):
         force, rate, mounts = (
@@ -79,7 +80,8 @@ def periods_under_law(simulation, law, feed=lambda: None):
 
     `feed()` is called before each period, to see to the road ahead. Raises as `run_closed_loop` does.
     """
-    lockstep = Lockstep(simulation.settings.passive_current, (-np.inf, np.inf))
+    lockstep = Lockstep(simulation.mounting.coils, simulation.settings.passive_current, (-np.inf, np.inf))
+    law.run_on(simulation.mounting)
     while True:
         feed()
         simulation.advance(lockstep.currents)

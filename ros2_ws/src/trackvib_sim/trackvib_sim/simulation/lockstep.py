@@ -9,22 +9,22 @@ OUTCOMES = ("accepted", "late", "duplicate", "early", "not_finite", "saturated",
 
 
 class Lockstep:
-    """Judges each offered current against the samples that were published.
+    """Judges each answer, the currents of all coils, against the samples that were published.
 
     In lock-step only the answer to the latest sample is accepted. In real time (`lockstep=False`) an answer to an
     older sample is used, too, as long as it is newer than the last one used; it counts as late all the same.
 
     Attributes
     ----------
-    currents : (2,) array
+    currents : (coils,) array
         The currents in force [A].
     counts : Counter
-        How often each of `OUTCOMES` happened. A current outside `usable` [A] that is put in force counts as saturated
-        as well: driver or mounts will cut it.
+        How often each of `OUTCOMES` happened. Currents of which one is outside `usable` [A] count as saturated as well
+        when they are put in force: driver or mounts will cut it.
     """
 
-    def __init__(self, initial, usable, lockstep=True):
-        self.currents = np.zeros(2)
+    def __init__(self, coils, initial, usable, lockstep=True):
+        self.currents = np.zeros(coils)
         self.counts = Counter(dict.fromkeys(OUTCOMES, 0))
         self._usable = usable
         self._lockstep = lockstep
@@ -47,7 +47,7 @@ class Lockstep:
         self._sample = stamp
 
     def offer(self, stamp, currents):
-        """Judge the answer (2,) [A] to the sample with this stamp [ns]; returns one of `OUTCOMES`."""
+        """Judge the answer (coils,) [A] to the sample with this stamp [ns]; returns one of `OUTCOMES`."""
         outcome = self._judge(stamp, currents)
         self.counts[outcome] += 1
         if outcome == "accepted" or (outcome == "late" and not self._lockstep and stamp > self._answered):

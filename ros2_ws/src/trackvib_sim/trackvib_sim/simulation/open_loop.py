@@ -49,7 +49,7 @@ def run_open_loop(
     True
     """
     feeder = RoadFeeder(road, HORIZON)
-    current = np.full(simulation.coils, simulation.settings.passive_current)
+    current = np.full(simulation.mounting.coils, simulation.settings.passive_current)
     force = np.zeros((periods, *simulation.sample.specific_force.shape))
     speed = np.zeros(periods)
     for first in range(0, periods, _CHUNK):

@@ -13,7 +13,7 @@ class NotTold(ValueError):
 
 
 def currents_in_force(simulation, recording, on_silence):
-    """Yield the demanded current (2,) [A] in force in each period of a `bags.recording.Recording`.
+    """Yield the demanded current (coils,) [A] in force in each period of a `bags.recording.Recording`.
 
     Before the next one is asked for, the simulation must have done the period.
 
@@ -36,7 +36,7 @@ def currents_in_force(simulation, recording, on_silence):
         When a current is asked for that the recording should tell but does not.
     """
     answers, counts = _RecordedAnswers(recording.answers), recording.loop_counts
-    passive = held = np.full(2, simulation.settings.passive_current)
+    passive = held = np.full(simulation.mounting.coils, simulation.settings.passive_current)
     while True:
         yield held
         stamp = simulation.time
@@ -57,13 +57,13 @@ class _RecordedAnswers:
 
     def __init__(self, answers):
         if answers is None:
-            self._stamps, self._current = np.empty(0, np.int64), np.empty((0, 2))
+            self._stamps, self._current = np.empty(0, np.int64), np.empty((0, 0))
             return
         order = np.argsort(answers.sample_stamp, kind="stable")  # of one sample, in the order of arrival
         self._stamps, self._current = answers.sample_stamp[order], answers.current[order]
 
     def to(self, stamp):
-        """Return the different currents (2,) [A] that were given to the sample of a stamp [ns], in their order."""
+        """Return the different currents (coils,) [A] that were given to the sample of a stamp [ns], in their order."""
         different = []
         for current in self._current[slice(*np.searchsorted(self._stamps, (stamp, stamp + 1)))]:
             if np.isfinite(current).all() and not any(np.array_equal(current, known) for known in different):

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..numerics.units import NANO
 from ..road.store import RoadStore
+from ..vehicle.mounting import mounting_of
 from ..vehicle.parameters import Vehicle
 from ..vehicle.sensors import Sensor, sensors_of
 from ..vehicle.system import body_rows, build_system, new_work
@@ -54,6 +55,8 @@ class Simulation:
     sample : step.Sample
         Of the last control period, a row a sensor, `CHASSIS` and `POWERTRAIN` first; the probes follow. Before the
         first period only its state, not its means, is filled.
+    mounting : mr_mount_controller.mounting.Mounting
+        The mounts in the order of the sample, and how many coils there are.
     state : vehicle.system.State
     road : road.store.RoadStore
         To be filled by the caller, as far ahead as `road_is_enough` asks.
@@ -75,7 +78,8 @@ class Simulation:
         self.system = build_system(vehicle, settings.operation, 1.0 / settings.rates.physics)
         self._initial = run_in(vehicle, self.system, settings)
         self.sensors = sensors_of(vehicle)
-        self._points = _points([*self.sensors, *probes], body_rows(vehicle, self.system.tree))
+        self.mounting = mounting_of(vehicle)
+        self.points = _points([*self.sensors, *probes], body_rows(vehicle, self.system.tree))
         self._reach = max(abs(vehicle.idlers.x), abs(vehicle.sprockets.x)) + _MARGIN
         self.reset()
 
@@ -85,15 +89,10 @@ class Simulation:
         self.state = deepcopy(self._initial)
         self.road = RoadStore()
         self.periods = 0
-        self.sample, self._next = (new_sample(self._points, self.system.mounts) for _ in range(2))
+        self.sample, self._next = (new_sample(self.points, self.system.mounts) for _ in range(2))
         self._work = new_work(self.system)
-        self._demanded = np.zeros(self.coils)
+        self._demanded = np.zeros(self.mounting.coils)
         observe(self.system, self.state, self._work.motion, self.sample)
-
-    @property
-    def coils(self) -> int:
-        """How many mounts have a coil."""
-        return self.system.mounts.coils
 
     @property
     def time(self) -> int:
@@ -110,7 +109,7 @@ class Simulation:
         return self._road_around(1) is not None
 
     def advance(self, demanded):
-        """Do one control period with the demanded currents (c,) [A], one a coil.
+        """Do one control period with the demanded current of each coil [A].
 
         Raises
         ------
@@ -128,7 +127,7 @@ class Simulation:
         if road is not self._held:
             steps = self.settings.rates.steps
             self._statuses = control_periods(
-                self.system, self.state, road, self._demanded, steps, self._work, self._points, self._next, self.sample
+                self.system, self.state, road, self._demanded, steps, self._work, self.points, self._next, self.sample
             )
             self._held = road
 
@@ -145,7 +144,7 @@ class Simulation:
             demanded,
             self.settings.rates.steps,
             self._work,
-            self._points,
+            self.points,
             self.sample,
             force,
             speed,

@@ -67,7 +67,8 @@ def test_report_data_of_a_long_bag_is_small():
     """Lines and spectrograms do not grow with the bag."""
     recording = made_recording(np.arange(1, 200_001))
     found = build_report_data(recording, analyse(recording))
-    lines = [*found.currents.values(), *(line for axes in found.accelerations.values() for line in axes.values())]
+    currents = (*found.currents.values(), *found.demanded.values())
+    lines = [*currents, *(line for axes in found.accelerations.values() for line in axes.values())]
     assert len(lines) == 10
     for time, values in lines:
         assert len(time) == len(values) <= MOST + 4

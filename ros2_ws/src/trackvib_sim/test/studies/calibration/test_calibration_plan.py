@@ -125,7 +125,7 @@ def test_what_is_no_plan_is_refused(tmp_path, text, paper, content):
 def test_calibrated_file_differs_in_the_values_and_their_marks_alone(text):
     """Every other byte stays; the file is valid and has the values, sources and bounds; old notes are kept."""
     parameters = [of("tracks.pretension", 5e3, 4e4, "log"), of("hull.inertia[0]", 1.7e4, 3.2e4),
-                  of("hull.inertia[2]", 6.5e4, 1.2e5), of("mr_mounts.carried_mass", 500.0, 2e3)]  # fmt: skip
+                  of("hull.inertia[2]", 6.5e4, 1.2e5), of("mount_types.mr.carried_mass", 500.0, 2e3)]  # fmt: skip
     values = [23450.0, 17890.0, 101200.0, 1234.0]
     new = calibrated_vehicle_text(text, parameters, values)
     vehicle = parse_vehicle(new, "new")
@@ -137,8 +137,8 @@ def test_calibrated_file_differs_in_the_values_and_their_marks_alone(text):
     quantity = yaml.safe_load(new)
     assert quantity["tracks"]["pretension"]["source"] == "calibrated"
     assert "[0] within 17000.0 to 32000.0; [2] within 65000.0 to 1.2e+5" in quantity["hull"]["inertia"]["note"]
-    before = yaml.safe_load(text)["mr_mounts"]["carried_mass"]["note"]
-    assert quantity["mr_mounts"]["carried_mass"]["note"] == f"{before}; within 500.0 to 2000.0"
+    before = yaml.safe_load(text)["mount_types"]["mr"]["carried_mass"]["note"]
+    assert quantity["mount_types"]["mr"]["carried_mass"]["note"] == f"{before}; within 500.0 to 2000.0"
 
 
 def test_calibrating_again_replaces_the_bounds(text):

@@ -4,15 +4,16 @@ import numpy as np
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 
-from ..numbers import AXES, SENSORS, SIDES
+from ..numbers import AXES, SENSORS
 from .figure_style import (
     AXIS_COLOURS,
     AXIS_NAMES,
     SENSOR_COLOURS,
-    SIDE_COLOURS,
     coherence,
     density,
     line,
+    mount_colour,
+    plain,
     ratio,
     settling,
     styled,
@@ -89,15 +90,19 @@ def transmission(report_data):
 def mount_loops(report_data):
     """Vertical force over deflection and over velocity: a figure a mount each; none without mount states."""
     kinds = ((report_data.deflection_loops, "deflection, mm"), (report_data.velocity_loops, "velocity, m/s"))
-    return [_loop(loops[side], side, unit) for loops, unit in kinds for side in SIDES if side in loops]
+    return [
+        _loop(loop, name, mount_colour(index), unit)
+        for loops, unit in kinds
+        for index, (name, loop) in enumerate(loops.items())
+    ]
 
 
-def _loop(loop, side, unit):
+def _loop(loop, name, colour, unit):
     cells = go.Heatmap(
         x=loop.across, y=loop.force, z=loop.density, colorscale=_DENSITY, showscale=False, hoverinfo="skip"
     )
-    figure = go.Figure((cells, line(loop.line, "1 s", SIDE_COLOURS[side])))
-    styled(figure, 340, f"{side.capitalize()} mount, force over {unit.split(',')[0]}")
+    figure = go.Figure((cells, line(loop.line, "1 s", colour)))
+    styled(figure, 340, f"{plain(name.capitalize())} mount, force over {unit.split(',')[0]}")
     figure.update_layout(showlegend=False, margin={"t": 40})
     figure.update_xaxes(title_text=unit, zeroline=False)
     figure.update_yaxes(title_text="force on the powertrain, kN", zeroline=False)
@@ -106,13 +111,14 @@ def _loop(loop, side, unit):
 
 def currents(report_data):
     """Demanded current and that in the coils; None if the bag has neither."""
-    if not report_data.currents:
+    if not (report_data.demanded or report_data.currents):
         return None
     figure = go.Figure()
-    for name, points in report_data.currents.items():
-        demanded = name.endswith("demanded")
-        colour, dash = SIDE_COLOURS[name.partition(",")[0]], "dot" if demanded else "solid"
-        figure.add_trace(line(points, name, colour, dash=dash, opacity=0.6 if demanded else 1.0))
+    kinds = ((report_data.demanded, "demanded", "dot", 0.6), (report_data.currents, "in the coil", "solid", 1.0))
+    for lines, words, dash, opacity in kinds:
+        for index, (coil, points) in enumerate(lines.items()):
+            name = f"{plain(coil)}, {words}"
+            figure.add_trace(line(points, name, mount_colour(index), dash=dash, opacity=opacity))
     figure.update_xaxes(title_text="time, s")
     figure.update_yaxes(title_text="current, A", rangemode="tozero")
     return settling(styled(figure, 300), report_data.analysis)

@@ -2,7 +2,7 @@
 
 import plotly.graph_objects as go
 
-from ..numbers import AXES, SENSORS, SIDES
+from ..numbers import AXES, SENSORS
 from .figure_style import AXIS_NAMES, BAG_COLOURS, BAG_DASHES, coherence, density, line, plain, ratio, settling, styled
 
 
@@ -86,14 +86,20 @@ def mount_loops(report_data_list, names):
     """A second of force over deflection and over velocity: a figure a mount each."""
     figures = []
     for kind, unit in (("deflection_loops", "deflection, mm"), ("velocity_loops", "velocity, m/s")):
-        for side in SIDES:
-            traces = _overlay(report_data_list, names, lambda each, k=kind, s=side: _second(getattr(each, k).get(s)))
+        for mount in _of_any(getattr(each, kind) for each in report_data_list):
+            traces = _overlay(report_data_list, names, lambda each, k=kind, m=mount: _second(getattr(each, k).get(m)))
             if traces:
-                figure = styled(go.Figure(traces), 340, f"{side.capitalize()} mount, force over {unit.split(',')[0]}")
+                title = f"{plain(mount.capitalize())} mount, force over {unit.split(',')[0]}"
+                figure = styled(go.Figure(traces), 340, title)
                 figure.update_xaxes(title_text=unit, zeroline=False)
                 figure.update_yaxes(title_text="force on the powertrain, kN", zeroline=False)
                 figures.append(figure)
     return figures
+
+
+def _of_any(parts):
+    """Return the names that any of some dicts has, in their order."""
+    return dict.fromkeys(name for part in parts for name in part)
 
 
 def _second(loop):
@@ -103,10 +109,10 @@ def _second(loop):
 def currents(report_data_list, names):
     """Current in the coils: a figure a mount."""
     figures = []
-    for side in SIDES:
-        traces = _overlay(report_data_list, names, lambda each, s=side: each.currents.get(f"{s}, in the coil"))
+    for coil in _of_any(each.currents for each in report_data_list):
+        traces = _overlay(report_data_list, names, lambda each, c=coil: each.currents.get(c))
         if traces:
-            figure = styled(go.Figure(traces), 300, f"{side.capitalize()} coil")
+            figure = styled(go.Figure(traces), 300, f"{plain(coil.capitalize())} coil")
             figure.update_xaxes(title_text="time, s")
             figure.update_yaxes(title_text="current, A", rangemode="tozero")
             figures.append(settling(figure, report_data_list[0].analysis))

@@ -2,7 +2,7 @@
 
 from math import isclose, isfinite, nan
 
-from ..numbers import AXES, SENSORS, SIDES
+from ..numbers import AXES, SENSORS
 from .tables import MOUNT, UNITS, WORDS, Table, change, number
 
 _PLACES = [(sensor, axis) for sensor in reversed(SENSORS) for axis in AXES]
@@ -46,14 +46,14 @@ def lines(analyses, names):
 def mounts(analyses, names):
     """Numbers of the mounts: a table a mount."""
     tables = []
-    for side in SIDES:
-        found = [analysis.mounts.get(side) for analysis in analyses]
+    for name in dict.fromkeys(name for analysis in analyses for name in analysis.mounts):
+        found = [analysis.mounts.get(name) for analysis in analyses]
         rows = [
             (f"{words}, {unit}", [of(mount) if mount else nan for mount in found])
             for words, unit, of in MOUNT
             if unit != "J"  # grows with time; the mean power can be compared
         ]
-        tables.append(_compared(f"{side} mount, vertical", rows, names))
+        tables.append(_compared(f"{name} mount, vertical", rows, names))
     return tables
 
 

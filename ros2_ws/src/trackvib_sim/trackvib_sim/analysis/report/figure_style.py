@@ -10,7 +10,7 @@ from ..plots import COLOURS, LOWEST_FREQUENCY, NAMES
 
 SENSOR_COLOURS = COLOURS
 AXIS_COLOURS = {"x": "#2a9d8f", "y": "#9467bd", "z": "#c8453c"}
-SIDE_COLOURS = {"left": "#2a9d8f", "right": "#b0508f"}
+_MOUNT_COLOURS = ("#2a9d8f", "#b0508f", "#d99a1c", "#4aa3df")
 BAG_COLOURS = ("#1b9e77", "#cc5a9b", "#d99a1c", "#4aa3df", "#8c6bb1", "#808080")
 BAG_DASHES = ("solid", "dash", "dot")  # for more bags than colours
 AXIS_NAMES = dict(zip("xyz", NAMES, strict=True))
@@ -18,6 +18,11 @@ ONE_TWO_FIVE = [float(f"{digit}e{power}") for power in range(-4, 5) for digit in
 GRID = "rgba(128,128,128,0.28)"
 LINE_COLOURS = {"link passing": "rgba(128,128,128,0.9)", "engine order": "rgba(190,140,20,0.95)"}
 _LONGEST = 48  # characters of a name in a legend
+
+
+def mount_colour(index):
+    """Return the colour of a mount and its coil by its number."""
+    return _MOUNT_COLOURS[index % len(_MOUNT_COLOURS)]
 
 
 def plain(text):

@@ -8,7 +8,7 @@ from scipy.signal import ShortTimeFFT
 from scipy.signal.windows import hann
 
 from ...numerics.units import NANO
-from ..numbers import AXES, SENSORS, SIDES, Analysis
+from ..numbers import AXES, SENSORS, Analysis
 from ..stamps import BLOCK, blocks
 from .thinning import thinned
 
@@ -45,9 +45,10 @@ class ReportData(NamedTuple):
     vehicle: str | None  # text of the vehicle file
     accelerations: dict  # sensor -> axis -> line (time, m/s²)
     spectrograms: dict  # sensor -> Spectrogram of the vertical
-    currents: dict  # name -> line (time, A)
-    deflection_loops: dict  # side -> Loop over deflection in mm; empty without mount states
-    velocity_loops: dict  # side -> Loop over velocity in m/s
+    demanded: dict  # coil -> line (time, A)
+    currents: dict  # the same in the coil
+    deflection_loops: dict  # mount -> Loop over deflection in mm; empty without mount states
+    velocity_loops: dict  # mount -> Loop over velocity in m/s
 
 
 def build_report_data(recording, analysis):
@@ -56,23 +57,24 @@ def build_report_data(recording, analysis):
     sensors = {sensor: getattr(recording, sensor) for sensor in SENSORS}
     times = {sensor: Seconds(inertial.stamp, analysis.begin) for sensor, inertial in sensors.items()}
     mounts, answers = recording.mounts, recording.answers
-    currents, deflections, velocities = {}, {}, {}
-    for sources, stamp, words in ((answers, "sample_stamp", "demanded"), (mounts, "stamp", "in the coil")):
+    demanded, currents, deflections, velocities = {}, {}, {}, {}
+    names, coils = recording.mounting.names, recording.mounting.coils
+    for sources, stamp, lines in ((answers, "sample_stamp", demanded), (mounts, "stamp", currents)):
         if sources is not None:
             time = Seconds(getattr(sources, stamp), analysis.begin)
-            for column, side in enumerate(SIDES):
-                currents[f"{side}, {words}"] = thinned(time, sources.current[:, column], step)
+            for column, coil in enumerate(names[:coils]):
+                lines[coil] = thinned(time, sources.current[:, column], step)
     if mounts is not None:
         settled = bisect_right(mounts.stamp, analysis.begin + round(analysis.settle * NANO))
-        for column, side in enumerate(SIDES):
+        for column, mount in enumerate(names):
             deflection, velocity, force = (
                 each[settled:, column, VERTICAL] for each in (mounts.deflection, mounts.velocity, mounts.force)
             )
             if len(deflection):
-                mean = analysis.mounts[side].axes["z"].deflection_mean
+                mean = analysis.mounts[mount].axes["z"].deflection_mean
                 around = _greatest(deflection, mean, round(EXCERPT * analysis.rate))
-                deflections[side] = _loop(deflection, 1e3, force, around)
-                velocities[side] = _loop(velocity, 1.0, force, around)
+                deflections[mount] = _loop(deflection, 1e3, force, around)
+                velocities[mount] = _loop(velocity, 1.0, force, around)
     return ReportData(
         analysis,
         recording.provenance,
@@ -88,6 +90,7 @@ def build_report_data(recording, analysis):
             sensor: spectrogram(times[sensor], inertial.specific_force[:, VERTICAL], analysis.rate, analysis.duration)
             for sensor, inertial in sensors.items()
         },
+        demanded,
         currents,
         deflections,
         velocities,

@@ -89,7 +89,7 @@ def lines(analysis):
 
 
 def mounts(analysis):
-    """Both mounts, along the vertical; without mount states no rows."""
+    """All mounts, along the vertical; without mount states no rows."""
     found = list(analysis.mounts.values())
     rows = [(words, unit, *(number(of(mount)) for mount in found)) for words, unit, of in MOUNT] if found else []
     return Table(("vertical", "unit", *analysis.mounts), rows, 2)

@@ -49,7 +49,7 @@ class PinocchioSimulation(Simulation):
             drive_coils(system.coil, demanded, state.coils)
             add_forces(system, state, road, work)
             self._solve()
-            status = end_step(system, state, road, work, self._points, self._next, 1.0 / steps)
+            status = end_step(system, state, road, work, self.points, self._next, 1.0 / steps)
             if status != Status.GOOD:
                 self._end_periods(status, 0)
         observe(system, state, work.motion, self._next)

@@ -1,16 +1,16 @@
-"""The powertrain on its two mounts as a linear model, for laws that are designed on one.
+"""The powertrain on its MR mounts as a linear model, for laws that are designed on one.
 
 The hull heaves on its suspension; the powertrain turns about its rear hinge, with the mounts at its front. With the
 heave z of the hull and the deflection d of the mounts (state z, d and their rates),
 
     [M + m    m r] [z'']   [K_s z + C_s z'                 ]   [w_road + w_engine    ]
     [             ] [   ] + [                               ] = [                     ]
-    [m r       m_e] [d'']   [(K + 2 k) d + 2 c d'           ]   [r w_engine + u       ]
+    [m r       m_e] [d'']   [(K + n k) d + n c d'           ]   [r w_engine + u       ]
 
 with M and m the masses of hull and powertrain, r the distance of the powertrain's centre of mass from the hinge over
 that of the mounts, m_e its moment of inertia about the hinge over that distance squared, K the rubber of the hinge, k
-and c of one mount at a fixed current, and u what both mounts do beyond that. The hull's force reaches the powertrain
-through hinge and mounts alike, so that isolation by the mounts alone has its limits.
+and c of one of n mounts at a fixed current, and u what all of them do beyond that. The hull's force reaches the
+powertrain through hinge and mounts alike, so that isolation by the mounts alone has its limits.
 """
 
 from typing import NamedTuple
@@ -35,30 +35,30 @@ CENTRE_RATIO = CENTRE[0] / MOUNTS[0]
 HEAVE, DEFLECTION, HEAVE_RATE, DEFLECTION_RATE = range(4)  # of the state
 
 
-class TwoMountModel(NamedTuple):
+class MountModel(NamedTuple):
     """x' = A x + B u + G w,  y = C x + D u + F w."""
 
     a: np.ndarray  # (4, 4)
-    b: np.ndarray  # (4, 1) of the force of both mounts beyond those of the fixed current, N
+    b: np.ndarray  # (4, 1) of the force of all mounts beyond that of the fixed current, N
     g: np.ndarray  # (4, 2) of the forces of road and engine, N
     c: np.ndarray  # (2, 4) to the vertical accelerations of powertrain and hull at the mounts, m/s^2
     d: np.ndarray  # (2, 1)
     f: np.ndarray  # (2, 2)
 
 
-def two_mount_model(current):
-    """Return the `TwoMountModel` about mounts at a current [A]."""
+def mount_model(current, mounts):
+    """Return the `MountModel` about a number of mounts at a current [A]."""
     coupling, lever = POWERTRAIN_MASS * CENTRE_RATIO, MOUNTS[0] ** 2
     mass = np.array([[HULL_MASS + POWERTRAIN_MASS, coupling], [coupling, HINGE_INERTIA / lever]])
-    spring = np.diag([SUSPENSION_STIFFNESS, HINGE_STIFFNESS / lever + 2.0 * stiffness(current)])
-    damper = np.diag([SUSPENSION_DAMPING, 2.0 * damping(current)])
+    spring = np.diag([SUSPENSION_STIFFNESS, HINGE_STIFFNESS / lever + mounts * stiffness(current)])
+    damper = np.diag([SUSPENSION_DAMPING, mounts * damping(current)])
     # of generalised accelerations, by state, force of the mounts, and disturbances
     by_state = -np.linalg.solve(mass, np.hstack((spring, damper)))
     by_force = np.linalg.solve(mass, np.array([[0.0], [1.0]]))
     by_disturbance = np.linalg.solve(mass, np.array([[1.0, 1.0], [0.0, CENTRE_RATIO]]))
     measured = np.array([[1.0, 1.0], [1.0, 0.0]])
     zeros = np.zeros
-    return TwoMountModel(
+    return MountModel(
         a=np.vstack((np.hstack((zeros((2, 2)), np.eye(2))), by_state)),
         b=np.vstack((zeros((2, 1)), by_force)),
         g=np.vstack((zeros((2, 2)), by_disturbance)),
