@@ -88,7 +88,7 @@ def vehicle_picture(vehicle, path):
 
 def _from_the_left(plot, assembled, labels):
     v = assembled.vehicle
-    drawing(plot, f"{v.name.replace('_', ' ')} from the left, m")
+    drawing(plot, f"{v.name.replace('_', ' ')}, from the left, m")
     hub = {name: FROM_LEFT @ place for name, place in assembled.hub.items()}
     corners = boxes(plot, assembled, FROM_LEFT)
     rear, front = sorted(hub[name(LEFT)][0] for name in (sprocket_name, idler_name))
