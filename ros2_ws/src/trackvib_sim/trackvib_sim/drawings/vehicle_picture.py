@@ -170,9 +170,15 @@ def _names(plot, assembled, hub, corners, labels):
     labels.add(plot, f"road wheels, R {v.road_wheels.radius:g}", middle + (0.0, 0.85 * v.road_wheels.radius))
     left, right = t.links
     links = f"{left:g}" if left == right else f"{left:g} (left) and {right:g} (right)"
-    lowest = assembled.pins[LEFT][np.argmin(np.abs(assembled.pins[LEFT][:, 0] - sprocket[0] + outwards * 0.4)
-                                            + assembled.pins[LEFT][:, 2])]  # fmt: skip
-    labels.add(plot, f"{links} links of {t.pitch:g} a side", FROM_LEFT @ lowest)
+    labels.add(plot, f"{links} links of {t.pitch:g} a side", _end_run(assembled, sprocket, outwards))
+
+
+def _end_run(assembled, sprocket, outwards):
+    """Place (2,) of a pin in the middle of the run between ground and left sprocket."""
+    pins, v = assembled.pins[LEFT] @ FROM_LEFT.T, assembled.vehicle
+    last = outwards * max(outwards * v.swing_arms.places[LEFT])
+    run = pins[(outwards * (pins[:, 0] - last) > 0.0) & (pins[:, 1] < sprocket[1])]
+    return run[np.argmin(np.abs(run[:, 1] - 0.5 * sprocket[1]))]
 
 
 def _dimensions(plot, assembled, hub):

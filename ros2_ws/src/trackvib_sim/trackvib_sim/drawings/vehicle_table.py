@@ -87,7 +87,7 @@ def _loads(vehicle):
     yield "loads of the road wheels", wheels, "kN", "at rest, from front to rear"
     yield "give of the tyres", f"{1e3 * sink(vehicle):.1f}", "mm", "under equal shares of the bodies' weight"
     for name, force in loads.mount.items():
-        along = _words((1e-3 * force).round(2).tolist())
+        along = _words(((1e-3 * force).round(2) + 0.0).tolist())
         kind = vehicle.mount_types[vehicle.mounts[name].type].kind
         note = f"{kind}, at rest along x, y, z of the mount; {1e-3 * trimmed[name][2]:.2f} along z where its ends meet"
         yield f"load on mount {name}", along, "kN", note + (f"; {loads.current:g} A" if kind == "mr" else "")

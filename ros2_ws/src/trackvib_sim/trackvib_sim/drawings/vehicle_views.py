@@ -61,9 +61,12 @@ def boxes(plot, assembled, view, names=None):
         centre = view @ (assembled.hub[name] + solid.centre)
         edge = COLOURS["powertrain"] if name == POWERTRAIN else FAINT
         style = {"linestyle": "--", "facecolor": _shade(assembled.vehicle, name), "edgecolor": edge, "zorder": BACK}
-        box(plot, centre, sides, **style)
+        low, high = centre - 0.5 * sides, centre + 0.5 * sides
+        if view[1, 2]:
+            low[1] = max(low[1], 0.0)  # ground hides what a hollow body's box has below it
+        box(plot, 0.5 * (low + high), high - low, **style)
         centre_of_mass(plot, centre)
-        corners[name] = np.array([centre - 0.5 * sides, centre + 0.5 * sides])
+        corners[name] = np.array([low, high])
     return corners
 
 
@@ -178,10 +181,11 @@ def _running_gear_from_above(plot, assembled):
 
 
 def _dimensions_from_above(plot, corners, hinge, mounts):
-    """Where centre of mass and mounts are along x, from the hinge or else from the rearmost mount; the mounts' span."""
+    """Where hinge, mounts and centre of mass are along x, from the rearmost of the first two; the mounts' span."""
     centre, ahead = corners.mean(axis=0), np.unique(mounts[:, 0].round(3))
-    start = hinge[0] if hinge is not None else ahead[0]
-    for k, x in enumerate(sorted({*ahead.tolist(), centre[0]} - {start})):
+    held = sorted({*ahead.tolist(), *([] if hinge is None else [hinge[0]])}) or [centre[0]]
+    start = held[0]
+    for k, x in enumerate(sorted({*held, centre[0]} - {start})):
         y = corners[0, 1] - 0.02 - 0.16 * k
         for end in (start, x):
             extension(plot, (end, min(0.0, centre[1])), (end, y))
