@@ -21,7 +21,7 @@ ALIKE = 0.05  # relative distance of neighbours that share a line, if the same p
 
 
 def run_modes(name_or_file, current, highest, picture):
-    """Print the table of a vehicle's modes up to `highest` [Hz] at a coil current [A], and draw the lowest oscillations.
+    """Print the table of a vehicle's modes up to `highest` [Hz] at a coil current [A], and draw the lowest ones.
 
     Raises
     ------

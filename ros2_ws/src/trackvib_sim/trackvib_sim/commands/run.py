@@ -69,8 +69,8 @@ def run_loop(choices, out):
     Raises
     ------
     CommandError
-        The duration is too short, the vehicle cannot be used, the folder exists, a node ended on its own, or the bag cannot be read or lacks
-        something that the simulator counted.
+        The duration is too short, the vehicle cannot be used, the folder exists, a node ended on its own, or the bag
+        cannot be read or lacks something that the simulator counted.
     KeyboardInterrupt
         After the nodes have ended in order and what there is has been summarised.
     """
@@ -91,9 +91,9 @@ def run_loop(choices, out):
         with writing_to(folder):
             (folder / "log").mkdir()
         console.print(f"closed loop: {choices.title}")
-        needed = recommended_rate(vehicle)
-        if choices.physics_rate < needed:
-            console.print(f"warning: results may depend on --physics-rate {choices.physics_rate}, recommended is {needed}")
+        recommended = recommended_rate(vehicle)
+        if choices.physics_rate < recommended:
+            console.print(f"warning: --physics-rate {choices.physics_rate} is below the recommended {recommended} Hz")
         interrupt = _run_nodes(choices, path, folder, console)
     try:
         lacking = _evaluate(choices, folder, console)

@@ -21,7 +21,6 @@ from ..vehicle.parameters import Vehicle
 from ..vehicle.vehicle_file import read_vehicle
 from .result_folder import whole_or_none
 
-
 SCHEMA = "https://json-schema.org/draft/2020-12/schema"
 
 

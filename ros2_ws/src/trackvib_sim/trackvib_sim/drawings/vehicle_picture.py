@@ -98,10 +98,16 @@ def _from_the_left(plot, assembled, labels):
     _names(plot, assembled, hub, corners, labels)
     _dimensions(plot, assembled, hub)
     axes_cross(plot, (front + 1.7, 0.5), {"x": (1, 0), "z": (0, 1)})
-    note = NOTE + STAGGERED * (not np.array_equal(*v.swing_arms.places))
+    note = NOTE + STAGGERED * (not np.array_equal(*v.swing_arms.places)) + _links(v.tracks)
     plot.text(front + 0.45, -0.3, note, fontsize=TEXT, color=INK, va="top", linespacing=1.4)
     plot.set_xlim(min(rear - 1.3, corners["hull"][0, 0] - 0.3), max(front + 2.2, plot.dataLim.x1 + 0.1))
     plot.set_ylim(-0.9, max(high[1] for _, high in corners.values()) + 0.45)
+
+
+def _links(tracks):
+    left, right = tracks.links
+    number = f"{left:g} links" if left == right else f"{left:g} links on the left, {right:g} on the right"
+    return f"\ntracks: {number}, pitch {tracks.pitch:g}"
 
 
 def _running_gear(plot, assembled, hub):
@@ -151,10 +157,10 @@ def _measuring_points(plot, assembled, labels):
 
 
 def _names(plot, assembled, hub, corners, labels):
-    v, t, sprocket, idler = assembled.vehicle, assembled.vehicle.tracks, hub[sprocket_name(LEFT)], hub[idler_name(LEFT)]
+    v, sprocket, idler = assembled.vehicle, hub[sprocket_name(LEFT)], hub[idler_name(LEFT)]
     names = list(solids(v))
-    for name, body in solids(v).items():
-        on_it = [corners[other] for other in names if other != name and names.index(other) > names.index(name)]
+    for k, (name, body) in enumerate(solids(v).items()):
+        on_it = [corners[other] for other in names[k + 1 :]]
         words = f"{name.replace('_', ' ')} {body.mass / 1e3:.1f} t"
         labels.add(plot, words, corners[name].mean(axis=0), box=corners[name], others=on_it)
     centre = FROM_LEFT @ assembled.centre
@@ -168,21 +174,11 @@ def _names(plot, assembled, hub, corners, labels):
         labels.add(plot, f"roller, R {v.carrier_rollers.radius:g}", hub[roller_name(LEFT, 0)])
     middle = hub[wheel_name(LEFT, v.swing_arms.stations // 2)]
     labels.add(plot, f"road wheels, R {v.road_wheels.radius:g}", middle + (0.0, 0.85 * v.road_wheels.radius))
-    left, right = t.links
-    links = f"{left:g}" if left == right else f"{left:g} (left) and {right:g} (right)"
-    labels.add(plot, f"{links} links of {t.pitch:g} a side", _end_run(assembled, sprocket, outwards))
-
-
-def _end_run(assembled, sprocket, outwards):
-    """Place (2,) of a pin in the middle of the run between ground and left sprocket."""
-    pins, v = assembled.pins[LEFT] @ FROM_LEFT.T, assembled.vehicle
-    last = outwards * max(outwards * v.swing_arms.places[LEFT])
-    run = pins[(outwards * (pins[:, 0] - last) > 0.0) & (pins[:, 1] < sprocket[1])]
-    return run[np.argmin(np.abs(run[:, 1] - 0.5 * sprocket[1]))]
 
 
 def _dimensions(plot, assembled, hub):
-    v, ends = assembled.vehicle, {drive_end(assembled.vehicle): sprocket_name, -drive_end(assembled.vehicle): idler_name}
+    v, end = assembled.vehicle, drive_end(assembled.vehicle)
+    ends = {end: sprocket_name, -end: idler_name}
     rear, front = hub[ends[REAR](LEFT)], hub[ends[FRONT](LEFT)]
     wheels = [hub[wheel_name(LEFT, station)][0] for station in reversed(range(v.swing_arms.stations))]
     along = [rear[0], *wheels, front[0]]

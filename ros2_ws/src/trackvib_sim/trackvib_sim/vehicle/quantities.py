@@ -113,4 +113,6 @@ def words(most, *known):
 
 def _listed(one, many):
     """Return a validator that makes a list of one element."""
-    return BeforeValidator(lambda value: value if isinstance(value, list) else [value], json_schema_input_type=one | many)
+    return BeforeValidator(
+        lambda value: value if isinstance(value, list) else [value], json_schema_input_type=one | many
+    )
