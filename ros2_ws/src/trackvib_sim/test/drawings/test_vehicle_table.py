@@ -52,7 +52,10 @@ def leaves(content, path=()):
 @pytest.mark.property
 def test_tables_of_files_of_the_format_before():
     """Their sections are listed as they stand in the file."""
-    text = "hull:\n  mass: {value: 1.0e3, unit: kg, source: assumed}\ncoil:\n  model: {value: lag, unit: '-', source: assumed}"
+    text = (
+        "hull:\n  mass: {value: 1.0e3, unit: kg, source: assumed}\n"
+        "coil:\n  model: {value: lag, unit: '-', source: assumed}\n"
+    )
     found = parameters(text)
     assert {section: [row.value for row in rows] for section, rows in found.items()} == {
         "hull": ["1000"],

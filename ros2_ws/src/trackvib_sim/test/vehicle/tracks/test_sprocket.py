@@ -6,6 +6,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from trackvib_sim.rui.sweeps.tree import rest_lanes
+from trackvib_sim.vehicle.body_tree import REAR
 from trackvib_sim.vehicle.tracks.nodes import (
     NodeOffset,
     NodeWorkOffset,
@@ -15,7 +16,6 @@ from trackvib_sim.vehicle.tracks.nodes import (
     new_nodes,
     see_from_hull,
 )
-from trackvib_sim.vehicle.body_tree import REAR
 from trackvib_sim.vehicle.tracks.sprockets import add_sprocket
 from trackvib_sim.vehicle.tracks.wheels import Hub, WheelLoadOffset, find_outermost
 
