@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import yaml
 from matplotlib import pyplot as plt
-from matplotlib.text import Annotation, Text
+from matplotlib.text import Annotation
 from matplotlib.transforms import Bbox
 from trackvib_sim.data import find_vehicle, vehicle_names
 from trackvib_sim.drawings.assembled_vehicle import assemble_vehicle
@@ -155,9 +155,8 @@ def test_words_keep_clear_of_each_other():
     for k in range(6):
         labels.add(plot, f"point number {k}", (2.7 + 0.1 * k, 2.1))
     labels.write(figure)
-    renderer = figure.canvas.get_renderer()
-    # of an annotation without its leader
-    extents = [Text.get_window_extent(words, renderer) for words in plot.texts]
+    figure.canvas.draw()
+    extents = [words.get_bbox_patch().get_window_extent() for words in plot.texts]
     black = Bbox(plot.transData.transform([(2.0, 1.9), (4.0, 2.1)]))
     assert len(extents) == 6
     for k, extent in enumerate(extents):

@@ -10,7 +10,7 @@ from trackvib_sim.vehicle.parameters import Vehicle
 
 pytestmark = pytest.mark.property
 SCHEMA = Vehicle.model_json_schema()
-TYPES = {"object": dict, "array": list, "string": str, "number": (int, float), "null": type(None)}
+TYPES = {"object": dict, "array": list, "string": str, "number": (int, float), "integer": int, "null": type(None)}
 NOTES = {"title", "description", "default", "discriminator", "$defs"}
 
 

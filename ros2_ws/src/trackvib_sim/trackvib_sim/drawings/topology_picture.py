@@ -1,6 +1,6 @@
 """A tree of bodies drawn from its table: bodies as discs, hinges as numbered lines, the root on the left.
 
-    ./trackvib exec -- python -m trackvib_sim.drawings.topology_picture PICTURE.png [VEHICLE [ROOT]]
+    ./trackvib exec -- python -m trackvib_sim.drawings.topology_picture PICTURE.png [ROOT [VEHICLE]]
 
 draws a vehicle, by name or file, with the hull or another body as the transfer root.
 """
@@ -16,7 +16,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 from ..data import find_vehicle  # noqa: E402
 from ..rui.reference.placement import parent_rows  # noqa: E402
 from ..rui.reference.reroot import reroot  # noqa: E402
-from ..vehicle.body_tree import build_body_table, running_gear_kind  # noqa: E402
+from ..vehicle.body_tree import HULL, build_body_table, running_gear_kind  # noqa: E402
 from ..vehicle.vehicle_file import read_vehicle  # noqa: E402
 
 STYLES = {"revolute": "-", "prismatic": "--", "locked": ":", "elastic": "-."}
@@ -71,9 +71,8 @@ def _layout(bodies):
 
 def main():
     """Draw a vehicle."""
-    picture, *rest = sys.argv[1:]
-    table = build_body_table(read_vehicle(find_vehicle(*rest[:1]))[0])
-    topology_picture(reroot(table, rest[1]) if len(rest) > 1 else table, picture)
+    picture, root, vehicle = (*sys.argv[1:], *(HULL, None)[len(sys.argv) - 2 :])
+    topology_picture(reroot(build_body_table(read_vehicle(find_vehicle(vehicle))[0]), root), picture)
 
 
 if __name__ == "__main__":
