@@ -11,14 +11,11 @@ from mr_mount_controller.laws import find_law, shipped_laws
 from mr_mount_controller.mount import HIGHEST_CURRENT, LOWEST_CURRENT, current_for_damping, damping, stiffness
 from mr_mount_controller.node import PARAMETERS as CONTROLLER
 from mr_mount_controller.node_base.topics import TOPICS
-from trackvib_sim.data import find_vehicle
-from trackvib_sim.drawings.vehicle_table import Figure, figures, parameters
-from trackvib_sim.drawings.vehicle_table import Parameter as VehicleParameter
 from trackvib_sim.nodes.player import PARAMETERS as PLAYER
 from trackvib_sim.nodes.recorder import PARAMETERS as RECORDER
 from trackvib_sim.nodes.road_excitation import PARAMETERS as ROAD
 from trackvib_sim.nodes.simulator_parameters import PARAMETERS as SIMULATOR
-from trackvib_sim.vehicle.vehicle_file import parse_vehicle
+from vehicle_tables import TABLES as VEHICLE_TABLES
 
 PACKAGES = ("trackvib_sim", "mr_mount_controller")
 _PARAMETER_HEAD = ("parameter", "default", "accepted", "meaning")
@@ -85,23 +82,6 @@ def mount():
     return rows
 
 
-def vehicle_figures():
-    """What follows from the shipped vehicle's parameters."""
-    return [Figure._fields, *figures(parse_vehicle(_vehicle(), "the vehicle file"))]
-
-
-def vehicle_parameters():
-    """Every item of the shipped vehicle file."""
-    rows = [VehicleParameter._fields]
-    for section, items in parameters(_vehicle()).items():
-        rows += [(f"**{section}**",) + ("",) * 4, *items]
-    return rows
-
-
-def _vehicle():
-    return find_vehicle().read_text(encoding="utf-8")
-
-
 def _parameter(each):
     choices = ("false", "true") if isinstance(each.default, bool) else each.choices
     accepted = ", ".join(f"`{choice}`" for choice in choices)
@@ -130,6 +110,5 @@ TABLES = {
     "parameters of player": node_parameters(PLAYER),
     "laws": laws,
     "mount": mount,
-    "vehicle figures": vehicle_figures,
-    "vehicle parameters": vehicle_parameters,
+    **VEHICLE_TABLES,
 }

@@ -2,10 +2,10 @@
 
     ./trackvib exec -- python docs/renew.py [DOCUMENT ...]
 
-renews README.md and docs/*.md, or the documents given. It makes anew what stands between `<!-- KIND of: SOURCE -->` and
-`<!-- end -->`: a `table` of `code_tables.py` by its name, the `output` of a command in a fence, or the `picture` that a
-command leaves under the name that the document shows. `tests/test_documents.py` and `tests/test_printed_output.py` fail
-where the document has something else.
+renews README.md, docs/*.md and docs/vehicles/*.md, or the documents given. It makes anew what stands between
+`<!-- KIND of: SOURCE -->` and `<!-- end -->`: a `table` of `code_tables.py` by its name, the `output` of a command in a
+fence, or the `picture` that a command leaves under the name that the document shows. `tests/test_documents.py` and
+`tests/test_printed_output.py` fail where the document has something else.
 """
 
 import os
@@ -35,7 +35,8 @@ class Block(NamedTuple):
 
 def documents():
     """Return the paths of all documents that may hold blocks."""
-    return [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+    docs = ROOT / "docs"
+    return [ROOT / "README.md", *sorted(docs.glob("*.md")), *sorted(docs.glob("vehicles/*.md"))]
 
 
 def blocks(text):

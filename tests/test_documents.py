@@ -100,7 +100,7 @@ def test_single_marks_are_refused(text):
 
 @pytest.mark.literature
 def test_what_the_model_does_not_give_follows_from_the_table():
-    """Sentences of docs/vehicle.md about ours and the paper's levels, from the rows that docs/studies.md shows."""
+    """Sentences about ours and the paper's levels of the default vehicle, from the rows that docs/studies.md shows."""
     (block,) = (block for block in renew.blocks((ROOT / "docs" / "studies.md").read_text()) if block.kind == "output")
     cells = re.findall(r"^│ ([A-H]) +│ +(\d+) │ ([\d. ]+) │ ([\d. ]+) │", block.content, re.MULTILINE)
     ours = {
@@ -110,7 +110,8 @@ def test_what_the_model_does_not_give_follows_from_the_table():
     ratio = np.array([np.divide(ours[case], paper[case]) for case in ours])
     assert ratio.shape == (9, 6)
     change = dict(zip(ours, 100.0 * (ratio - 1.0), strict=True))
-    means, text = np.exp(np.log(ratio).mean(axis=0)), " ".join((ROOT / "docs" / "vehicle.md").read_text().split())
+    means = np.exp(np.log(ratio).mean(axis=0))
+    text = " ".join((ROOT / "docs" / "vehicles" / "tao2025.md").read_text().split())
     low20, high5 = (
         sorted(abs(change[road, speed][column]) for road in "ACE") for speed, column in ((20.0, 1), (5.0, 4))
     )

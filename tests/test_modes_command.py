@@ -27,7 +27,7 @@ def test_prints_a_table_and_draws(modes, tmp_path):
     picture.parent.mkdir()
     code, output = modes("--current", 2, "--highest", 12, "--out", picture)
     assert code == 0, output
-    assert "2 A in both mounts" in output and "damping ratio" in output and "powertrain" in output
+    assert "2 A in its coils" in output and "damping ratio" in output and "powertrain" in output
     oscillations = output.partition("creep")[0]
     frequencies = [float(first) for first in re.findall(r"^\W*(\d+\.\d{3})\b", oscillations, re.MULTILINE)]
     assert len(frequencies) > 5
@@ -41,8 +41,19 @@ def test_leaves_its_picture_where_the_user_stands(modes, tmp_path):
     """Without options it works from any directory, and its picture is there."""
     code, output = modes()
     assert code == 0, output
-    assert "1 A in both mounts" in output
+    assert "1 A in its coils" in output
     assert (tmp_path / "modes.png").read_bytes().startswith(PNG)
+
+
+@SLOW
+def test_takes_another_vehicle(modes):
+    """A free powertrain has six modes of its own; a vehicle without coils has no current in them."""
+    code, output = modes("--vehicle", "tao2025_free", "--highest", 30)
+    assert code == 0, output
+    assert len(re.findall("powertrain [89][0-9]%", output)) >= 3
+    code, output = modes("--vehicle", "m113", "--highest", 5)
+    assert code == 0, output
+    assert "standing vehicle" in output and "coils" not in output
 
 
 @SLOW

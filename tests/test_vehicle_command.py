@@ -1,8 +1,11 @@
 """`trackvib vehicle`, as a user calls it."""
 
+import json
+import re
+
 import pytest
 import yaml
-from trackvib_sim.data import find_vehicle
+from trackvib_sim.data import find_vehicle, vehicle_names
 
 pytestmark = pytest.mark.system
 SLOW = pytest.mark.slow(reason="each case starts the command line")
@@ -52,6 +55,35 @@ def test_takes_another_vehicle(vehicle, other, tmp_path):
     assert code == 0, output
     assert "23456" in output and "mine.png" in output
     assert (tmp_path / "mine.png").read_bytes().startswith(PNG)
+
+
+@SLOW
+def test_takes_a_vehicle_by_its_name(vehicle, tmp_path):
+    """One that comes with the package needs no path; nothing that lies about under its name is taken instead."""
+    (tmp_path / "m113").mkdir()
+    code, output = vehicle("--vehicle", "m113", "--out", tmp_path / "mine.png")
+    assert code == 0, output
+    assert "m113.yaml" in output and "recommended physics" in output
+
+
+def test_lists_vehicles(vehicle, tmp_path):
+    """Each that comes with the package has its line; nothing is drawn."""
+    code, output = vehicle("--list")
+    assert code == 0, output
+    assert all(re.search(rf"\b{name}\b", output) for name in vehicle_names())
+    assert re.search(r"tao2025 .* 42\.1 t .* 6 .* rear .* 2 mr", output)
+    assert re.search(r"m113 .* 5 .* front", output)
+    assert not list(tmp_path.rglob("*.png"))
+
+
+@SLOW
+def test_prints_the_schema(vehicle, tmp_path):
+    """Standard output is one JSON document and nothing else; nothing is drawn."""
+    code, output = vehicle("--schema")
+    assert code == 0, output
+    schema = json.loads(output)
+    assert schema["$schema"].startswith("https://json-schema.org/") and "swing_arms" in schema["properties"]
+    assert not list(tmp_path.rglob("*.png"))
 
 
 @SLOW

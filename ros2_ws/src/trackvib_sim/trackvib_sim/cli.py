@@ -12,7 +12,7 @@ from .commands.analyze_cli import analyze
 from .commands.bag_cli import bag
 from .commands.endings import fail, say
 from .commands.lasting_output import OutputLost, lasting_output
-from .commands.option_types import INTERRUPTED, FiniteRange, known_law
+from .commands.option_types import INTERRUPTED, FiniteRange, known_law, vehicle_option
 from .commands.replay_cli import replay
 from .commands.study_cli import study
 from .road.iso8608 import CLASSES
@@ -63,6 +63,7 @@ def _interrupt():
 
 
 @main.command()
+@vehicle_option
 @click.option(
     "--road-class",
     type=click.Choice(list(CLASSES)),
@@ -81,6 +82,13 @@ def _interrupt():
 )
 @click.option("--seed", type=click.IntRange(0, 10**9), default=1, show_default=True, help="Seed of the road.")
 @click.option(
+    "--physics-rate",
+    type=click.IntRange(1000, 200_000),
+    default=10_000,
+    show_default=True,
+    help="Rate of the physics steps in Hz; `trackvib vehicle` tells the one that a vehicle needs.",
+)
+@click.option(
     "--one-process", is_flag=True, help="Simulator, road and controller in one process: the same results, sooner."
 )
 @click.option(
@@ -89,20 +97,21 @@ def _interrupt():
     default=None,
     help="Folder to make for the run.  [default: runs/<time>_<road>_<speed>]",
 )
-def run(road_class, speed, duration, law, seed, one_process, out):
+def run(out, **choices):
     """Run the closed loop as four ROS 2 nodes; leaves a bag, a summary and a picture."""
     from .commands.result_folder import CommandError
     from .commands.run import Choices, run_loop  # imported late: --help need not wait for it
 
     try:
-        run_loop(Choices(road_class, speed, duration, law, seed, one_process), out)
+        run_loop(Choices(**choices), out)
     except CommandError as error:
         fail(error)
 
 
 @main.command()
+@vehicle_option
 @click.option(
-    "--current", type=FiniteRange(0.0, 10.0), default=1.0, show_default=True, help="Coil current of both mounts in A."
+    "--current", type=FiniteRange(0.0, 10.0), default=1.0, show_default=True, help="Current of all coils in A."
 )
 @click.option(
     "--highest",
@@ -118,34 +127,36 @@ def run(road_class, speed, duration, law, seed, one_process, out):
     show_default=True,
     help="Picture of the lowest oscillations.",
 )
-def modes(current, highest, out):
+def modes(vehicle, current, highest, out):
     """Print the standing vehicle's natural frequencies and damping, and draw its modes."""
     from .commands.modes import run_modes
     from .commands.result_folder import CommandError  # imported late, as above
 
     try:
-        run_modes(current, highest, out)
+        run_modes(vehicle, current, highest, out)
     except (CommandError, ValueError, OSError) as error:
         fail(error)
 
 
 @main.command()
-@click.option(
-    "--vehicle",
-    type=click.Path(dir_okay=False),
-    default=None,
-    help="Vehicle file.  [default: the one that comes with the package]",
-)
+@vehicle_option
 @click.option(
     "--out", type=click.Path(dir_okay=False), default="vehicle.png", show_default=True, help="Drawing of the vehicle."
 )
-def vehicle(vehicle, out):
-    """Print the vehicle's parameters with their sources, and draw it to scale."""
+@click.option("--list", "listing", is_flag=True, help="Only list the vehicles that come with the package.")
+@click.option("--schema", is_flag=True, help="Only print the JSON Schema of vehicle files, for editors.")
+def vehicle(vehicle, out, listing, schema):
+    """Print a vehicle's parameters with their sources and what follows from them, and draw it to scale."""
     from .commands.result_folder import CommandError  # imported late, as above
-    from .commands.vehicle import run_vehicle
+    from .commands.vehicle import list_vehicles, print_schema, run_vehicle
 
     try:
-        run_vehicle(vehicle, out)
+        if listing:
+            list_vehicles()
+        elif schema:
+            print_schema()
+        else:
+            run_vehicle(vehicle, out)
     except (CommandError, ValueError, OSError) as error:
         fail(error)
 

@@ -9,6 +9,7 @@ from ..console import Terminal
 from ..data import find_vehicle
 from ..drawings.mode_pictures import mode_pictures
 from ..rui.linear.modes import describe, modes
+from ..vehicle.body_tree import running_gear_kind
 from ..vehicle.coil import usable_current
 from ..vehicle.linear_vehicle import build_linear_vehicle
 from ..vehicle.system import Operation, build_system
@@ -19,11 +20,20 @@ DRAWN = 12  # most modes in the picture
 ALIKE = 0.05  # relative distance of neighbours that share a line, if the same parts move
 
 
-def run_modes(current, highest, picture):
-    """Print the table of all modes up to `highest` [Hz] at a coil current [A] and draw the lowest oscillations."""
+def run_modes(name_or_file, current, highest, picture):
+    """Print the table of a vehicle's modes up to `highest` [Hz] at a coil current [A], and draw the lowest ones.
+
+    Raises
+    ------
+    ValueError
+        The file cannot be used, the vehicle cannot stand, the current is none of its mounts', or the picture's folder
+        does not exist.
+    CommandError
+        The picture cannot be written.
+    """
     if not Path(picture).absolute().parent.is_dir():
         raise ValueError(f"picture {picture}: its folder must exist")
-    vehicle, _ = read_vehicle(find_vehicle())
+    vehicle, _ = read_vehicle(find_vehicle(name_or_file))
     low, high = usable_current(vehicle)
     if not low <= current <= high:
         raise ValueError(
@@ -35,7 +45,8 @@ def run_modes(current, highest, picture):
     oscillating = [mode for mode in found if not mode.overdamped]
     creeping = [mode for mode in found if mode.overdamped]
     out = Terminal()
-    out.print(_table(model, oscillating, f"Oscillations of the standing vehicle, {current:g} A in both mounts"))
+    carried = f", {current:g} A in its coils" if system.mounts.coils else ""
+    out.print(_table(model, oscillating, f"Oscillations of the standing vehicle{carried}"))
     if creeping:
         out.print(_creeping(model, creeping))
     drawn = [group[0] for group in _groups(model, oscillating)][:DRAWN]
@@ -89,4 +100,4 @@ def _parts(model, mode):
 
 def _motion(model, mode):
     """The parts that matter, wheels and arms of all stations taken together."""
-    return describe(model, mode, group=lambda name: name.rstrip("0123456789").rstrip("_").replace("_", " "))
+    return describe(model, mode, group=lambda name: running_gear_kind(name) or name.replace("_", " "))

@@ -7,6 +7,7 @@ from mr_mount_controller.laws import find_law
 from mr_mount_controller.node_base.parameters import ParameterError
 
 from ..bags.limits import LARGEST_CHUNKS, largest_chunk
+from ..data import DEFAULT_VEHICLE
 
 INTERRUPTED = 130  # exit code of what Ctrl-C has ended, as shells give it
 
@@ -47,6 +48,14 @@ def largest_chunk_option(command):
         help="Memory in MiB that a chunk of a bag may take when it is unfolded, and any other record; a bag that needs "
         "more is refused.",
     )(command)
+
+
+vehicle_option = click.option(
+    "--vehicle",
+    default=None,
+    metavar="NAME|FILE",
+    help=f"Vehicle that comes with the package, or a vehicle file.  [default: {DEFAULT_VEHICLE}]",
+)
 
 
 def known_law(_context, _parameter, value):

@@ -23,10 +23,13 @@ from ..analysis.summary import summarise
 from ..bags.errors import BagError
 from ..bags.reading import read_recording
 from ..console import Description, Terminal
+from ..data import find_vehicle
 from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses, closed_loop_parameters
 from ..nodes.road_excitation import PARAMETERS as ROAD_PARAMETERS
 from ..nodes.watch import Watch
 from ..vehicle.mount_energy import MountEnergy
+from ..vehicle.step_size import recommended_rate
+from ..vehicle.vehicle_file import VehicleFileError, read_vehicle
 from .result_folder import CommandError, make_folder, whole_or_none, writing_to
 
 HIGHEST_DOMAIN = 232  # of ROS 2; beyond it DDS has no ports
@@ -37,11 +40,13 @@ _LOOK = 0.2  # s between looks at processes and progress
 class Choices:
     """What the user chose."""
 
+    vehicle: str | None  # name or file; None for the default one
     road_class: str
     speed: float
     duration: float
     law: str
     seed: int
+    physics_rate: int
     one_process: bool
 
     @property
@@ -53,7 +58,9 @@ class Choices:
     @property
     def title(self):
         """The run in words."""
-        return f"class {self.road_class}, {self.speed:g} m/s, law {self.law}, seed {self.seed}, {self.duration:g} s"
+        vehicle = f"vehicle {self.vehicle}, " if self.vehicle else ""
+        road = f"class {self.road_class}, {self.speed:g} m/s"
+        return f"{vehicle}{road}, law {self.law}, seed {self.seed}, {self.duration:g} s"
 
 
 def run_loop(choices, out):
@@ -62,8 +69,8 @@ def run_loop(choices, out):
     Raises
     ------
     CommandError
-        The duration is too short, the folder exists, a node ended on its own, or the bag cannot be read or lacks
-        something that the simulator counted.
+        The duration is too short, the vehicle cannot be used, the folder exists, a node ended on its own, or the bag
+        cannot be read or lacks something that the simulator counted.
     KeyboardInterrupt
         After the nodes have ended in order and what there is has been summarised.
     """
@@ -73,14 +80,21 @@ def run_loop(choices, out):
             f"--duration is {choices.duration:g} s, must be at least {needed:.1f} s at {choices.speed:g} m/s: "
             f"{choices.settling:.1f} s to settle and {SHORTEST_MEASURING:g} s to measure"
         )
-    console = Terminal()
+    console, path = Terminal(), find_vehicle(choices.vehicle).absolute()
+    try:
+        vehicle, _ = read_vehicle(path)
+    except VehicleFileError as error:
+        raise CommandError(str(error)) from None
     with own_domain():
         name = f"{datetime.now():%Y%m%dT%H%M%S}_{choices.road_class}_{choices.speed:g}"
         folder = make_folder(out or Path("runs") / name)
         with writing_to(folder):
             (folder / "log").mkdir()
         console.print(f"closed loop: {choices.title}")
-        interrupt = _run_nodes(choices, folder, console)
+        recommended = recommended_rate(vehicle)
+        if choices.physics_rate < recommended:
+            console.print(f"warning: --physics-rate {choices.physics_rate} is below the recommended {recommended} Hz")
+        interrupt = _run_nodes(choices, path, folder, console)
     try:
         lacking = _evaluate(choices, folder, console)
     except (BagError, ValueError) as error:
@@ -111,13 +125,18 @@ def own_domain():
         yield
 
 
-def _run_nodes(choices, folder, console):
+def _run_nodes(choices, vehicle, folder, console):
     """Run the nodes to the end; returns the KeyboardInterrupt that cut them short, or None."""
     overrides = {
         "road_excitation": {"road_class": choices.road_class, "seed": choices.seed},
         "controller": {"law": choices.law},
         "recorder": {"bag": str(folder / "bag")},
-        "simulator": {"speed": float(choices.speed), "duration": float(choices.duration)},
+        "simulator": {
+            "vehicle_file": str(vehicle),
+            "physics_rate": choices.physics_rate,
+            "speed": float(choices.speed),
+            "duration": float(choices.duration),
+        },
     }
     executables = ONE_PROCESS if choices.one_process else FOUR_PROCESSES
     processes = LoopProcesses(executables, closed_loop_parameters(), overrides, folder / "log")

@@ -7,7 +7,7 @@ import click
 
 from ..road.iso8608 import CLASSES
 from .endings import fail, say
-from .option_types import INTERRUPTED, FiniteRange, Several
+from .option_types import INTERRUPTED, FiniteRange, Several, vehicle_option
 
 SCENARIOS = ("e10", "c20", "run_up", "bump")  # those of studies.controllers, which takes long to import
 
@@ -31,8 +31,6 @@ def _ends_in_one_line(out):
         sys.exit(INTERRUPTED)
 
 
-_VEHICLE = click.option("--vehicle", type=click.Path(dir_okay=False), default=None,
-                        help="Vehicle file.  [default: the one that comes with the package]")  # fmt: skip
 _SCHEDULER = click.option("--scheduler", default=None, metavar="ADDRESS",
                           help="Dask scheduler whose workers do it.  [default: all cores of this machine]")  # fmt: skip
 
@@ -61,7 +59,7 @@ _SCHEDULER = click.option("--scheduler", default=None, metavar="ADDRESS",
     show_default=True,
     help="Runs a class and speed, each with its own road and track phase.",
 )
-@_VEHICLE
+@vehicle_option
 @_SCHEDULER
 @click.option(
     "--out",
@@ -123,7 +121,7 @@ def figures(scheduler, out):
     show_default=True,
     help="Runs a law and scenario that varies, each with its own road and track phase.",
 )
-@_VEHICLE
+@vehicle_option
 @_SCHEDULER
 @click.option(
     "--out",
@@ -153,12 +151,7 @@ def controllers(laws, scenarios, seeds, vehicle, scheduler, out):
     default=None,
     help="Which parameters, bounds and effort.  [default: the plan that comes with the package]",
 )
-@click.option(
-    "--vehicle",
-    type=click.Path(dir_okay=False),
-    default=None,
-    help="Vehicle file to start from.  [default: the one that comes with the package]",
-)
+@vehicle_option
 @click.option(
     "--scheduler",
     default=None,

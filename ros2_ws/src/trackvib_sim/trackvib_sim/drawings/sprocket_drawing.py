@@ -3,8 +3,8 @@
 import numpy as np
 
 from ..analysis.plots import COLOURS
-from ..vehicle.body_tree import LEFT, SPROCKET
-from .technical_drawing import INK, MARKS, PARTS, SHADE, disc, drawing, leader
+from ..vehicle.body_tree import LEFT, sprocket_name
+from .technical_drawing import INK, MARKS, PARTS, SHADE, disc, drawing
 
 MM = 1e3
 WINDOW = 105.0  # mm to either side of the middle
@@ -51,11 +51,11 @@ def _places(radius, angle):
     return np.stack((radius * np.cos(angle), -radius * np.sin(angle)), axis=-1)
 
 
-def sprocket_entry(plot, assembled):
-    """Draw where pins enter the left sprocket of a `LaidVehicle`."""
+def sprocket_entry(plot, assembled, labels):
+    """Draw where pins enter the left sprocket of an `AssembledVehicle` that drives forwards."""
     drawing(plot, "How pins enter the sprocket, teeth as their centres feel them, mm")
-    s, hub = assembled.sprockets, assembled.hub[f"sprocket_{SPROCKET[LEFT]}"]
-    pins = (assembled.pins - hub)[:, [0, 2]]
+    s, hub = assembled.sprockets, assembled.hub[sprocket_name(LEFT)]
+    pins = (assembled.pins[LEFT] - hub)[:, [0, 2]]
     distance, share = np.hypot(*pins.T), 2.0 * np.pi / s.teeth
     entering = np.flatnonzero(distance < s.tip_radius)[-1]  # between the teeth, the next one is not yet
     angle = np.arctan2(-pins[entering, 1], pins[entering, 0])
@@ -72,9 +72,9 @@ def sprocket_entry(plot, assembled):
     flank, seat = MM * _places(radius, gap - to_flank), MM * _places(s.pitch_radius, gap + 0.55 * share)
     way = MM * _places(radius, gap + ahead)
     x, z = MM * 0.5 * (pins[entering - 1] + pins[entering])
-    leader(plot, f"flank, {np.degrees(np.arctan(s.slope)):.1f}° to the radius", flank[20], (x + 12.0, z - 76.0))
-    leader(plot, f"backlash {MM * s.backlash:.2g} to either side", flank[0], (x + 40.0, z + 40.0))
-    leader(plot, "way of a pin on the taut run", way[-1], (x - 5.0, z - 58.0), WAY_IN["color"])
-    leader(plot, f"pitch circle, R {MM * s.pitch_radius:.1f}", seat, (x - 25.0, z + 60.0))
+    labels.add(plot, f"flank, {np.degrees(np.arctan(s.slope)):.1f}° to the radius", flank[20])
+    labels.add(plot, f"backlash {MM * s.backlash:.2g} to either side", flank[0])
+    labels.add(plot, "way of a pin on the taut run", way[-1], WAY_IN["color"])
+    labels.add(plot, f"pitch circle, R {MM * s.pitch_radius:.1f}", seat)
     plot.set_xlim(x - WINDOW, x + WINDOW)
     plot.set_ylim(z - 0.85 * WINDOW, z + 0.85 * WINDOW)

@@ -37,11 +37,10 @@ def extension(plot, start, end):
 
 
 def leader(plot, words, point, place, color=INK):
-    """Write words at a place and lead a thin line to a point from the end of the words that is nearer to it."""
-    ahead = point[0] > place[0]
+    """Write words around a place and lead a thin line to a point from the end of the words that is nearer to it."""
     line = {"arrowstyle": "-", "color": color, "linewidth": 0.6, "shrinkA": 0, "shrinkB": 2}
-    line["relpos"] = (float(ahead), 0.5)
-    style = {"fontsize": TEXT, "color": color, "ha": "right" if ahead else "left", "va": "center", "bbox": CLEAR}
+    line["relpos"] = (float(point[0] > place[0]), 0.5)
+    style = {"fontsize": TEXT, "color": color, "ha": "center", "va": "center", "bbox": CLEAR}
     plot.annotate(words, point, place, arrowprops=line, zorder=WORDS, **style)
 
 

@@ -1,8 +1,8 @@
 """A tree of bodies drawn from its table: bodies as discs, hinges as numbered lines, the root on the left.
 
-    ./trackvib exec -- python -m trackvib_sim.drawings.topology_picture PICTURE.png
+    ./trackvib exec -- python -m trackvib_sim.drawings.topology_picture PICTURE.png [ROOT [VEHICLE]]
 
-draws the vehicle as the reference paper has it, with the recoil part as the transfer root.
+draws a vehicle, by name or file, with the hull or another body as the transfer root.
 """
 
 import sys
@@ -16,7 +16,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 from ..data import find_vehicle  # noqa: E402
 from ..rui.reference.placement import parent_rows  # noqa: E402
 from ..rui.reference.reroot import reroot  # noqa: E402
-from ..vehicle.body_tree import build_body_table  # noqa: E402
+from ..vehicle.body_tree import HULL, build_body_table, running_gear_kind  # noqa: E402
 from ..vehicle.vehicle_file import read_vehicle  # noqa: E402
 
 STYLES = {"revolute": "-", "prismatic": "--", "locked": ":", "elastic": "-."}
@@ -39,7 +39,7 @@ def topology_picture(bodies, path):
                       bbox={"boxstyle": "round,pad=0.1", "facecolor": "white", "edgecolor": "none"})  # fmt: skip
         plot.plot(x, y, "o", markersize=15, markerfacecolor="white", markeredgecolor="#d1662b", zorder=4)
         plot.text(x, y, str(body.number), fontsize=7.5, ha="center", va="center", zorder=5)
-        name = body.name.rstrip("0123456789_").replace("_", " ")
+        name = running_gear_kind(body.name) or body.name.replace("_", " ")
         plot.text(x + 0.32, y, name, fontsize=7, va="center", zorder=5,
                   bbox={"boxstyle": "square,pad=0.05", "facecolor": "white", "edgecolor": "none"})  # fmt: skip
     for kind in sorted({body.hinge.kind for body in bodies if body.hinge}):
@@ -70,9 +70,9 @@ def _layout(bodies):
 
 
 def main():
-    """Draw the vehicle."""
-    table = build_body_table(read_vehicle(find_vehicle())[0])
-    topology_picture(reroot(table, "recoil_part"), sys.argv[1])
+    """Draw a vehicle."""
+    picture, root, vehicle = (*sys.argv[1:], *(HULL, None)[len(sys.argv) - 2 :])
+    topology_picture(reroot(build_body_table(read_vehicle(find_vehicle(vehicle))[0]), root), picture)
 
 
 if __name__ == "__main__":

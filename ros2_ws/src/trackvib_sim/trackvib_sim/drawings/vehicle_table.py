@@ -1,14 +1,16 @@
 """A vehicle's parameters with their sources, and what follows from them, as rows of tables."""
 
 import re
-from math import sqrt
+from math import pi
 from typing import NamedTuple
 
-from ..vehicle.body_tree import GRAVITY
+from ..vehicle.mount_loads import loads_at_rest
+from ..vehicle.step_size import fastest_contact, longest_step, recommended_rate
 from ..vehicle.tracks.layout import sink
 from ..yaml_text import load
 from .assembled_vehicle import assemble_vehicle
 from .sprocket_drawing import free_entry, half_gap
+from .standing_vehicle import standing_loads
 
 SPEEDS = (5.0, 10.0, 20.0)  # m/s, those of [Tao2025]
 
@@ -33,14 +35,28 @@ class Figure(NamedTuple):
 
 
 def parameters(text):
-    """Return the `Parameter`s of a valid vehicle file's text by section, in its order."""
-    return {
-        section: [
-            Parameter(item, _words(each["value"]), each["unit"], each["source"], each.get("note", ""))
-            for item, each in items.items()
-        ]
-        for section, items in load(text, "the vehicle file").items()
-    }
+    """Return the `Parameter`s of a valid vehicle file's text by section, in its order.
+
+    Sections within others have the names of both, such as "bodies.turret"; what stands in none is in "vehicle".
+    """
+    return dict(_sections("", load(text, "the vehicle file")))
+
+
+def _sections(name, content):
+    items = {item: each for item, each in content.items() if each is not None}
+    inner = {item: each for item, each in items.items() if isinstance(each, dict) and "value" not in each}
+    own = [_parameter(item, each) for item, each in items.items() if item not in inner]
+    if own:
+        yield name or "vehicle", own
+    for item, each in inner.items():
+        yield from _sections(f"{name}.{item}".lstrip("."), each)
+
+
+def _parameter(item, each):
+    """A quantity with unit and source, or a bare word."""
+    if not isinstance(each, dict):
+        return Parameter(item, str(each), "", "", "")
+    return Parameter(item, _words(each["value"]), each["unit"], each["source"], each.get("note", ""))
 
 
 def figures(vehicle):
@@ -50,54 +66,73 @@ def figures(vehicle):
     ------
     TrackDoesNotFit
         The links do not close round the running gear.
+    NoEquilibrium
+        The vehicle cannot stand.
     """
-    assembled, t, p, mounts = assemble_vehicle(vehicle), vehicle.tracks, vehicle.powertrain, vehicle.mr_mounts
-    shoes, s, mm = 2.0 * t.links * t.shoe_mass, assembled.sprockets, 1e3
-    load = p.mass * GRAVITY * p.centre[0] / (2.0 * mounts.place[0])
-    gap, needed = (s.tip_radius * way(s)[1][-1] for way in (half_gap, free_entry))
-    passing = ", ".join(f"{speed / t.pitch:.2f}" for speed in SPEEDS)
-    speeds = ", ".join(f"{speed:g}" for speed in SPEEDS)
-    rows = (
-        ("mass", f"{1e-3 * assembled.mass:.2f}", "t", f"of it both tracks {1e-3 * shoes:.2f} t"),
-        (
-            "centre of mass",
-            _words((assembled.centre.round(3) + 0.0).tolist()),
-            "m",
-            "from the road below the hull's origin",
-        ),
-        ("length of a track", f"{t.links * t.pitch:.3f}", "m", f"{t.links:g} links"),
-        (
-            "travel of the tensioners",
-            f"{mm * assembled.travel:.1f}",
-            "mm",
-            "at which the track closes at its pretension",
-        ),
-        ("give of the tyres", f"{mm * sink(vehicle):.1f}", "mm", "under equal shares of the bodies' weight"),
-        ("load on an MR mount", f"{1e-3 * load:.2f}", "kN", f"at rest; rated are {1e-3 * mounts.static_load:g} kN"),
-        ("pitch radius of the sprockets", f"{mm * s.pitch_radius:.2f}", "mm", "the circle on which pins rest"),
-        ("gap at the tip of the teeth", f"{mm * gap:.1f}", "mm", "from its middle to a flank"),
-        ("gap for a free way in", f"{mm * needed:.1f}", "mm", "that a pin on the taut run needs there"),
-        ("link-passing frequency v/p", passing, "Hz", f"at {speeds} m/s"),
-        ("longest stable step", f"{1e3 * longest_step(vehicle):.3f}", "ms", "of a pin between two links on a tooth"),
-    )
+    assembled = assemble_vehicle(vehicle)
+    rows = (*_masses(assembled), *_loads(vehicle), *_tracks(assembled), *_teeth(assembled), *_rates(vehicle))
     return [Figure(*row) for row in rows]
 
 
-def longest_step(vehicle):
-    """Return the step [s] beyond which a pin diverges that shakes against both its links and a tooth.
+def _masses(assembled):
+    t = assembled.vehicle.tracks
+    centre = _words((assembled.centre.round(3) + 0.0).tolist())
+    yield "mass", f"{1e-3 * assembled.mass:.2f}", "t", f"of it both tracks {1e-3 * sum(t.links) * t.shoe_mass:.2f} t"
+    yield "centre of mass", centre, "m", "from the road below the hull's origin"
 
-    Links in counterphase act with 4 k and 4 c. Symplectic Euler is stable for h^2 k/m + 2 h c/m < 4 (Jury's criterion).
-    """
-    t, teeth = vehicle.tracks, vehicle.sprocket_teeth
-    k = (4.0 * t.link_stiffness + teeth.stiffness) / t.shoe_mass
-    c = (4.0 * t.link_damping + teeth.damping) / t.shoe_mass
-    return (sqrt(c * c + 4.0 * k) - c) / k
+
+def _loads(vehicle):
+    loads, trimmed = standing_loads(vehicle), loads_at_rest(vehicle)
+    wheels = _by_side([[f"{1e-3 * load:.1f}" for load in side] for side in loads.wheel])
+    yield "loads of the road wheels", wheels, "kN", "at rest, from front to rear"
+    yield "give of the tyres", f"{1e3 * sink(vehicle):.1f}", "mm", "under equal shares of the bodies' weight"
+    for name, force in loads.mount.items():
+        along = _words(((1e-3 * force).round(2) + 0.0).tolist())
+        kind = vehicle.mount_types[vehicle.mounts[name].type].kind
+        note = f"{kind}, at rest along x, y, z of the mount; {1e-3 * trimmed[name][2]:.2f} along z where its ends meet"
+        yield f"load on mount {name}", along, "kN", note + (f"; {loads.current:g} A" if kind == "mr" else "")
+
+
+def _tracks(assembled):
+    t, mm = assembled.vehicle.tracks, 1e3
+    length = _by_side([f"{links * t.pitch:.3f}" for links in t.links])
+    yield "length of a track", length, "m", f"{_by_side([f'{links:g}' for links in t.links])} links"
+    travel = _by_side([f"{mm * travel:.1f}" for travel in assembled.travel])
+    yield "travel of the tensioners", travel, "mm", "forwards, at which the track closes at its pretension"
+    passing = ", ".join(f"{speed / t.pitch:.2f}" for speed in SPEEDS)
+    yield "link-passing frequency v/p", passing, "Hz", f"at {', '.join(f'{speed:g}' for speed in SPEEDS)} m/s"
+
+
+def _teeth(assembled):
+    s, mm = assembled.sprockets, 1e3
+    gap, needed = (s.tip_radius * way(s)[1][-1] for way in (half_gap, free_entry))
+    yield "pitch radius of the sprockets", f"{mm * s.pitch_radius:.2f}", "mm", "the circle on which pins rest"
+    yield "gap at the tip of the teeth", f"{mm * gap:.1f}", "mm", "from its middle to a flank"
+    yield "gap for a free way in", f"{mm * needed:.1f}", "mm", "that a pin on the taut run needs there"
+
+
+def _rates(vehicle):
+    contact, frequency = fastest_contact(vehicle)
+    rate = recommended_rate(vehicle)
+    yield "longest stable step", f"{1e3 * longest_step(vehicle):.3f}", "ms", "of a pin between two links"
+    note = f"then a pin {contact}, at {frequency / (2.0 * pi):.0f} Hz, moves on by {frequency / rate:.2f} rad a step"
+    yield "recommended physics rate", f"{rate}", "Hz", note
+
+
+def _by_side(pair):
+    """One text for both sides if they are alike, else left and right."""
+    left, right = (_listed(each) if isinstance(each, list) else each for each in pair)
+    return left if left == right else f"left {left}, right {right}"
+
+
+def _listed(words):
+    return f"[{', '.join(words)}]"
 
 
 def _words(value):
     """A word as it is; a number, or a list of numbers or lists, to six digits."""
     if isinstance(value, list):
-        return f"[{', '.join(_words(each) for each in value)}]"
+        return _listed(_words(each) for each in value)
     try:
         number = float(value)  # YAML takes 4.0e7 for a text
     except ValueError:

@@ -4,21 +4,35 @@ import numpy as np
 from matplotlib.markers import CARETDOWN, CARETUP
 
 from ..analysis.plots import COLOURS
-from ..vehicle.body_tree import SIDES, SPROCKET, STATIONS, arm_name, wheel_name
+from ..vehicle.body_tree import (
+    HULL,
+    POWERTRAIN,
+    REAR,
+    SIDES,
+    arm_name,
+    bodies_on_hinges,
+    drive_end,
+    idler_name,
+    sprocket_name,
+    wheel_name,
+)
+from ..vehicle.parameters import CHASSIS
+from ..vehicle.sensors import sensors_of
 from .technical_drawing import (
     BACK,
     FAINT,
+    INK,
     MARKS,
     axes_cross,
     bar,
     box,
     centre_of_mass,
     dimension,
+    disc,
     drawing,
     extension,
     level_ground,
     spring,
-    text,
 )
 
 # what becomes of x, y, z in a picture
@@ -26,94 +40,167 @@ FROM_LEFT = np.array([[1, 0, 0], [0, 0, 1]])
 FROM_REAR = np.array([[0, -1, 0], [0, 0, 1]])
 FROM_ABOVE = np.array([[1, 0, 0], [0, 1, 0]])
 HINGE_AXIS = {"color": COLOURS["powertrain"], "linestyle": "-.", "linewidth": 1.6, "zorder": MARKS}
-SHADES = {
-    "hull": "#eef1f3",
-    "turret": "#e3e8eb",
-    "gun_mount": "#d4dbe0",
-    "recoil_part": "#c6d0d6",
-    "powertrain": "#f9e8dd",
-}
+SHADES = ("#eef1f3", "#e3e8eb", "#d4dbe0", "#c6d0d6", "#b8c4cc")  # of hull, what stands on it, what stands on that ...
+POWERTRAIN_SHADE = "#f9e8dd"
+SENSOR_MARKS = {CHASSIS: CARETUP, POWERTRAIN: CARETDOWN}
+KINDS = {"mr": "MR mount", "rubber": "rubber mount"}
 
 
-def boxes(plot, assembled, view, names=tuple(SHADES)):
+def boxes(plot, assembled, view, names=None):
     """Draw bodies of whose shape no parameter tells: as boxes of even density with their mass and inertia.
 
-    Returns the centres of mass (2,) by name.
+    Returns the corners (2, 2) of each by name, the lower left one first.
     """
-    centres = {}
-    for name in names:
-        solid = getattr(assembled.vehicle, name)
+    corners = {}
+    for name, solid in solids(assembled.vehicle).items():
+        if names is not None and name not in names:
+            continue
         inertia = np.array(solid.inertia)
         # I_x = m (l_y^2 + l_z^2) / 12, solved for the sides; the small products of inertia are left out
-        sides = np.sqrt(np.maximum(6.0 * (inertia.sum() - 2.0 * inertia) / solid.mass, 0.0))
-        centres[name] = view @ (assembled.hub[name] + solid.centre)
-        edge = COLOURS["powertrain"] if name == "powertrain" else FAINT
-        style = {"linestyle": "--", "facecolor": SHADES[name], "edgecolor": edge, "zorder": BACK}
-        box(plot, centres[name], np.abs(view) @ sides, **style)
-        centre_of_mass(plot, centres[name])
-    return centres
+        sides = np.abs(view) @ np.sqrt(np.maximum(6.0 * (inertia.sum() - 2.0 * inertia) / solid.mass, 0.0))
+        centre = view @ (assembled.hub[name] + solid.centre)
+        edge = COLOURS["powertrain"] if name == POWERTRAIN else FAINT
+        style = {"linestyle": "--", "facecolor": _shade(assembled.vehicle, name), "edgecolor": edge, "zorder": BACK}
+        low, high = centre - 0.5 * sides, centre + 0.5 * sides
+        if view[1, 2]:
+            low[1] = max(low[1], 0.0)  # ground hides what a hollow body's box has below it
+        box(plot, 0.5 * (low + high), high - low, **style)
+        centre_of_mass(plot, centre)
+        corners[name] = np.array([low, high])
+    return corners
+
+
+def solids(vehicle):
+    """Return the sections of the bodies that are drawn as boxes, by name, parents first."""
+    return {HULL: vehicle.hull, **bodies_on_hinges(vehicle)}
 
 
 def sensors(plot, assembled, view):
-    """Draw both sensors, in the middle between the mounts, and return their place (2,)."""
-    x, _, z = assembled.vehicle.mr_mounts.place
-    place = view @ (assembled.hub["powertrain"] + (x, 0.0, z))
-    for marker, sensor in ((CARETUP, "chassis"), (CARETDOWN, "powertrain")):
-        plot.plot(*place, marker=marker, markersize=9, color=COLOURS[sensor], zorder=MARKS + 1)
+    """Draw all sensors, and return their places (2,) and colours by name."""
+    places = {}
+    for sensor in sensors_of(assembled.vehicle):
+        place = view @ (assembled.hub[sensor.body] + sensor.place)
+        colour = COLOURS.get(sensor.name, INK)
+        plot.plot(*place, marker=SENSOR_MARKS.get(sensor.name, "D"), markersize=9, color=colour, zorder=MARKS + 1)
+        places[sensor.name] = place, colour
+    return places
+
+
+def mount_places(assembled, view, body=None):
+    """Return the places (2,) of the mounts' upper ends by name, of all or of one body's."""
+    mounts = assembled.vehicle.mounts.items()
+    return {name: view @ (assembled.hub[m.body] + m.place) for name, m in mounts if body in (None, m.body)}
+
+
+def mount_kind(vehicle, name):
+    """Return what kind of mount one is, in words."""
+    return KINDS[vehicle.mount_types[vehicle.mounts[name].type].kind]
+
+
+def powertrain_hinge(plot, assembled, view):
+    """Draw the powertrain's hinge: its axis, or the place of a bushing; returns the place (2,), None if there is none.
+
+    An axis that is seen from its end is a circle.
+    """
+    powertrain, style = assembled.vehicle.powertrain, {"edgecolor": COLOURS["powertrain"], "linewidth": 1.6}
+    if powertrain.hinge in ("free", "fixed"):
+        return None
+    place = view @ assembled.hub[POWERTRAIN]
+    if powertrain.hinge == "elastic":
+        box(plot, place, (0.09, 0.09), zorder=MARKS, **style)
+        return place
+    way = 0.9 * assembled.vehicle.swing_arms.pivot_y * (view @ powertrain.axis) / np.linalg.norm(powertrain.axis)
+    if np.hypot(*way) < 0.1:
+        disc(plot, place, 0.045, zorder=MARKS, **style)
+    else:
+        plot.plot(*np.stack((place - way, place + way), axis=1), **HINGE_AXIS)
     return place
 
 
 def from_the_rear(plot, assembled):
-    """Draw a `LaidVehicle` from the rear."""
+    """Draw an `AssembledVehicle` from the rear."""
     drawing(plot, "From the rear, m")
     v, view = assembled.vehicle, FROM_REAR
     boxes(plot, assembled, view)
-    outside = v.road_wheels.y + 0.6
+    outside, radius = v.road_wheels.y + 0.6, assembled.sprockets.tip_radius
+    end, end_radius = (sprocket_name, radius) if drive_end(v) == REAR else (idler_name, v.idlers.radius)
+    width = (v.sprockets if drive_end(v) == REAR else v.idlers).width
     level_ground(plot, -outside, outside)
-    mount, hinge = v.mr_mounts.place[1], view @ assembled.hub["powertrain"]
-    plot.plot((-1.0, 1.0), (hinge[1], hinge[1]), **HINGE_AXIS)
-    middle = sensors(plot, assembled, view)
-    for side, sign in SIDES.items():
-        wheel, pivot = (view @ assembled.hub[name(side, STATIONS - 1)] for name in (wheel_name, arm_name))
-        sprocket = view @ assembled.hub[f"sprocket_{SPROCKET[side]}"]
+    powertrain_hinge(plot, assembled, view)
+    sensors(plot, assembled, view)
+    for side in SIDES:
+        wheel, pivot = (view @ assembled.hub[name(side, v.swing_arms.stations - 1)] for name in (wheel_name, arm_name))
         box(plot, wheel, (v.road_wheels.width, 2.0 * v.road_wheels.radius))
         bar(plot, wheel, pivot)
-        box(plot, sprocket, (v.sprockets.width, 2.0 * assembled.sprockets.tip_radius))
-        spring(plot, middle + (sign * mount, 0.0))
+        box(plot, view @ assembled.hub[end(side)], (width, 2.0 * end_radius))
         for x, depth in ((wheel[0], -0.55), (pivot[0], -0.35)):
             extension(plot, (x, -0.2), (x, depth))
+    for place in mount_places(assembled, view).values():
+        spring(plot, place)
     dimension(plot, (-abs(pivot[0]), -0.33), (abs(pivot[0]), -0.33))
     dimension(plot, (-abs(wheel[0]), -0.53), (abs(wheel[0]), -0.53))
-    dimension(plot, middle + (-mount, 0.14), middle + (mount, 0.14))
-    axes_cross(plot, (outside - 0.25, 2.5), {"y": (-1, 0), "z": (0, 1)})
+    axes_cross(plot, (outside - 0.25, plot.dataLim.y1 - 0.6), {"y": (-1, 0), "z": (0, 1)})
     plot.margins(0.02)
 
 
-def from_above(plot, assembled):
-    """Draw the rear of a `LaidVehicle` from above."""
+def from_above(plot, assembled, labels):
+    """Draw the powertrain of an `AssembledVehicle` from above, with the running gear beside it."""
     drawing(plot, "Powertrain from above, m")
     v, view = assembled.vehicle, FROM_ABOVE
-    boxes(plot, assembled, view, ("hull",))
-    centre = boxes(plot, assembled, view, ("powertrain",))["powertrain"]
-    hinge, middle = view @ assembled.hub["powertrain"], sensors(plot, assembled, view)
-    plot.plot((hinge[0], hinge[0]), (-1.0, 1.0), **HINGE_AXIS)
-    text(plot, "axis of hinge 8", hinge + (0.0, 1.08), color=COLOURS["powertrain"], bbox=None)
-    for side, sign in SIDES.items():
-        sprocket = view @ assembled.hub[f"sprocket_{SPROCKET[side]}"]
+    boxes(plot, assembled, view, (HULL,))
+    corners = boxes(plot, assembled, view, (POWERTRAIN,))[POWERTRAIN]
+    hinge = powertrain_hinge(plot, assembled, view)
+    sensors(plot, assembled, view)
+    _running_gear_from_above(plot, assembled)
+    mounts = mount_places(assembled, view, POWERTRAIN)
+    for place in mounts.values():
+        box(plot, place, (0.12, 0.12), zorder=MARKS)
+    # the window holds the powertrain, its hinge and its mounts
+    places = np.array([*corners, *mounts.values(), *([] if hinge is None else [hinge])])
+    rear, front = places[:, 0].min() - 0.45, places[:, 0].max() + 0.45
+    _dimensions_from_above(plot, corners, hinge, np.array(list(mounts.values())).reshape(-1, 2))
+    axes_cross(plot, (rear + 0.1, v.road_wheels.y - 0.5), {"x": (1, 0), "y": (0, 1)})
+    plot.set_xlim(rear, front)
+    plot.set_ylim(-v.road_wheels.y - 0.3, v.road_wheels.y + 0.3)
+    for name, place in mounts.items():
+        labels.add(plot, f"{mount_kind(v, name)} {name.replace('_', ' ')}", place)
+    if hinge is not None:
+        labels.add(plot, f"hinge {assembled.number[POWERTRAIN]}", hinge + (0.0, 0.3), COLOURS["powertrain"])
+
+
+def _running_gear_from_above(plot, assembled):
+    v, view = assembled.vehicle, FROM_ABOVE
+    for side in SIDES:
+        sprocket, idler = view @ assembled.hub[sprocket_name(side)], view @ assembled.hub[idler_name(side)]
         box(plot, sprocket, (2.0 * assembled.sprockets.tip_radius, v.sprockets.width))
-        for station in range(STATIONS - 2, STATIONS):
+        box(plot, idler, (2.0 * v.idlers.radius, v.idlers.width))
+        for station in range(v.swing_arms.stations):
             wheel, pivot = (view @ assembled.hub[name(side, station)] for name in (wheel_name, arm_name))
             box(plot, wheel, (2.0 * v.road_wheels.radius, v.road_wheels.width))
             bar(plot, wheel, pivot)
-        mount = middle + (0.0, sign * v.mr_mounts.place[1])
-        box(plot, mount, (0.12, 0.12), zorder=MARKS)
-        text(plot, "MR mount", mount + (0.0, sign * 0.15), bbox=None)
-        extension(plot, mount, mount + (0.75, 0.0))
-    dimension(plot, middle + (0.7, -v.mr_mounts.place[1]), middle + (0.7, v.mr_mounts.place[1]))
-    for x, y in ((middle[0], -0.72), (centre[0], -0.9)):
-        extension(plot, (x, 0.0), (x, y))
-        dimension(plot, (hinge[0], y), (x, y))
-    rear, front = v.sprockets.x[0] - 0.75, v.swing_arms.wheel_x[STATIONS - 2] + v.road_wheels.radius + 0.1
-    axes_cross(plot, (rear + 0.1, 0.9), {"x": (1, 0), "y": (0, 1)})
-    plot.set_xlim(rear, front)
-    plot.set_ylim(-v.road_wheels.y - 0.3, v.road_wheels.y + 0.3)
+
+
+def _dimensions_from_above(plot, corners, hinge, mounts):
+    """Where hinge, mounts and centre of mass are along x, from the rearmost of the first two; the mounts' span."""
+    centre, ahead = corners.mean(axis=0), np.unique(mounts[:, 0].round(3))
+    held = sorted({*ahead.tolist(), *([] if hinge is None else [hinge[0]])}) or [centre[0]]
+    start = held[0]
+    for k, x in enumerate(sorted({*held, centre[0]} - {start})):
+        y = corners[0, 1] - 0.02 - 0.16 * k
+        for end in (start, x):
+            extension(plot, (end, min(0.0, centre[1])), (end, y))
+        dimension(plot, (start, y), (x, y))
+    if len(mounts) and np.ptp(mounts[:, 1]) > 0.1:
+        low, high, x = mounts[:, 1].min(), mounts[:, 1].max(), ahead[-1] + 0.3
+        for y in (low, high):
+            extension(plot, (mounts[mounts[:, 1] == y][0, 0], y), (x + 0.02, y))
+        dimension(plot, (x, low), (x, high))
+
+
+def _shade(vehicle, name):
+    if name == POWERTRAIN:
+        return POWERTRAIN_SHADE
+    depth, known = 0, solids(vehicle)
+    while name != HULL:
+        name, depth = known[name].parent, depth + 1
+    return SHADES[min(depth, len(SHADES) - 1)]

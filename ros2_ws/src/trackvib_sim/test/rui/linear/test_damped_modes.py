@@ -124,7 +124,7 @@ def test_poles_and_shapes_against_dense_matrices(seed):
 @pytest.mark.parametrize("seed", SEEDS)
 def test_energy_shares(seed):
     """Shares of bodies and of motions each sum up to the whole kinetic energy, that of the mode being 1."""
-    model = random_model(seed, kinds=("revolute", "prismatic", "locked"))
+    model = random_model(seed)
     dense = Dense(model)
     for mode in modes(model):
         q = dense.coordinates(mode.x, mode.coordinate)

@@ -45,11 +45,11 @@ class Mode:
         The root's part split up into three displacements of its centre of mass and three rotations; sums up to
         energy_share[0].
     hinge_share : (n,) array
-        What each hinge's coordinate brings into the kinetic energy (coordinate times its momentum), row 0 zero; can
+        What the motion in each hinge brings into the kinetic energy (its motion times its momentum), row 0 zero; can
         be negative.
     whole_share : (6,) array
         The same of the motion of the whole tree with the root, at the common centre of mass; sums up with
-        hinge_share to 1 if there are no elastic hinges.
+        hinge_share to 1.
 
     Examples
     --------
@@ -237,8 +237,11 @@ def _mode(tree, pole, x, coordinate):
     total = momentum.copy()  # of everything behind each cut, about the body's origin
     for row in reversed(range(1, len(total))):
         total[tree.parent[row]] += move(tree.lever[row]).T @ move(tree.offset[row]).T @ total[row]
-    at_hinge = [move(tree.offset[row]).T @ total[row] for row in range(len(total))]
-    hinge_share = np.real([np.conj(c) * (D @ p) for c, D, p in zip(coordinate, tree.axis, at_hinge, strict=True)])
+    hinge_share = np.zeros(len(total))
+    for row in range(1, len(total)):
+        # of the body's end of the hinge against the parent's: along its axis, of an elastic hinge all of it
+        relative = move(-tree.offset[row]) @ x[row] - move(tree.lever[row]) @ x[tree.parent[row]]
+        hinge_share[row] = np.real(np.conj(relative) @ move(tree.offset[row]).T @ total[row])
     return Mode(
         float(np.abs(pole) / (2.0 * np.pi)),
         float(-pole.real / np.abs(pole)),
