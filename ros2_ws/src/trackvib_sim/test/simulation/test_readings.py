@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 from trackvib_sim.road.iso8608 import Iso8608Road
-from trackvib_sim.simulation.readings import Readings, Sensor
+from trackvib_sim.simulation.readings import Readings
 from trackvib_sim.simulation.simulation import Probe
+from trackvib_sim.vehicle.sensors import Sensor
 
 pytestmark = pytest.mark.analytic
 
@@ -15,7 +16,11 @@ ROAD = Iso8608Road("E", 2, 8.0, 8.0)
 def measured(simulation):
     """A simulation with a slow sensor in the turret and one as fast as the others on the gun."""
     one = simulation(10.0, probes=(Probe("turret", (0.0, 0.0, 0.5)), Probe("gun_mount", (1.0, 0.0, 0.0))))
-    one.sensors = (*one.sensors, Sensor("seat", 7), Sensor("gun", 1))
+    one.sensors = [
+        *one.sensors,
+        Sensor("seat", "turret", (0.0, 0.0, 0.5), divisor=7),
+        Sensor("gun", "gun_mount", (1.0, 0.0, 0.0)),
+    ]
     return one
 
 
