@@ -13,7 +13,15 @@ setup(
     python_requires=">=3.10",
     packages=find_packages(exclude=["test*"]),
     package_data={
-        name: ["py.typed", "*.pyi", "rui/*.pyi", "analysis/report/templates/*", "data/**/*.yaml", "data/*.csv"]
+        name: [
+            "py.typed",
+            "*.pyi",
+            "rui/*.pyi",
+            "analysis/report/templates/*",
+            "data/**/*.yaml",
+            "data/**/*.csv",
+            "data/**/*.gz",
+        ]
     },
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{name}"]),

@@ -171,3 +171,27 @@ def calibrate(generations, plan, vehicle, scheduler, out):
         from ..studies.calibration.study import run_calibrate  # imported late, as above
 
         run_calibrate(plan, vehicle, generations, scheduler, out)
+
+
+@study.command()
+@click.option(
+    "--phases",
+    type=click.IntRange(1, 100),
+    default=4,
+    show_default=True,
+    help="Runs a case, each with its own phase between the two tracks.",
+)
+@_SCHEDULER
+@click.option(
+    "--out",
+    type=click.Path(file_okay=False),
+    default="m113",
+    show_default=True,
+    help="Folder of the study; finished runs in it are not done again.",
+)
+def m113(phases, scheduler, out):
+    """The M113 beside the same vehicle in an independent code, and what differences come from."""
+    with _ends_in_one_line(out):
+        from ..studies.m113.study import run_m113  # imported late, as above
+
+        run_m113(phases, scheduler, out)

@@ -1,4 +1,4 @@
-"""The files that come with the package: vehicles, calibration plan, part of the paper's table."""
+"""The files that come with the package: vehicles, calibration plan, part of the paper's table, the M113's histories."""
 
 from importlib.resources import files
 from pathlib import Path
@@ -43,6 +43,11 @@ def calibration_plan_file() -> Path:
 def paper_table_file() -> Path:
     """Return the path of the part of [Tao2025]'s Table 1 that the studies compare with."""
     return _path("table1_part.csv")
+
+
+def m113_histories_file() -> Path:
+    """Return the path of the histories of the M113 in Project Chrono that `study m113` compares with."""
+    return _path("m113/histories.csv.gz")
 
 
 def _path(name):

@@ -25,6 +25,10 @@ DECISIVE = (  # modules that `drive` runs; all others may change without making 
     "analysis/vibration.py",
     "studies/case.py",
     "studies/controllers/scenario.py",
+    "studies/m113/case.py",
+    "studies/m113/measures.py",
+    "studies/m113/reference.py",
+    "studies/m113/variants.py",
 )
 C, R = TypeVar("C"), TypeVar("R")
 

@@ -16,6 +16,7 @@ from .tracks.nodes import FEWEST_LINKS, MOST_LINKS
 
 MOST_STATIONS = 12
 MOST_ROLLERS = 12
+MOST_CONTACTS = 4  # of a link with a sprocket
 SIDES = 2
 
 by_station = lambda unit, **limits: one_or_many(unit, MOST_STATIONS, **limits)  # noqa: E731 - read as types
@@ -126,7 +127,12 @@ class RimsParameters(Section):
 
 
 class TeethParameters(Section):
-    """Contact of the sprockets' teeth with the pins."""
+    """Contact of the sprockets' teeth with the pins, or with what else of a shoe touches them.
+
+    Seat and flanks are straight, or one concave arc: `arc_centre` is then the distance of its centre from the hub, and
+    `arc_radius` its radius as the pins' centres see it. `contacts` are the places along a link, from its middle on,
+    forwards on the lower run; without them the pins touch.
+    """
 
     teeth: scalar("-", ge=6.0, le=40.0, multiple_of=1.0)
     pitch_excess: scalar("-", gt=-0.1, lt=0.1)
@@ -134,17 +140,34 @@ class TeethParameters(Section):
     backlash: Gain("m")
     height: Length
     corner_radius: Length
+    arc_centre: Length | None = None
+    arc_radius: Length | None = None
+    contacts: vector("m", most=MOST_CONTACTS) | None = None
+    friction: Gain("-") | None = None
     stiffness: scalar("N/m", gt=0.0)
     damping: Gain("N s/m")
     guide_stiffness: Gain("N/m")
     guide_damping: Gain("N s/m")
 
+    @model_validator(mode="after")
+    def _whole_arc(self):
+        if (self.arc_centre is None) != (self.arc_radius is None):
+            raise ValueError("arc_centre and arc_radius: must both be there, or neither of them")
+        if self.arc_centre is not None and not self.arc_radius < self.arc_centre:
+            raise ValueError(f"arc_radius is {self.arc_radius} m, must be less than arc_centre, {self.arc_centre} m")
+        return self
+
 
 class TensionersParameters(Section):
-    """Slides that hold the idlers outwards."""
+    """Slides that hold the idlers outwards.
+
+    `force` is that of their springs with the idlers at their places; without it, it is what gives the taut tracks
+    their pretension.
+    """
 
     stiffness: Gain("N/m")
     damping: Gain("N s/m")
+    force: by_side("N", ge=0.0) | None = None
     travel: Length
 
 

@@ -1,10 +1,11 @@
 """Sprockets: tooth by tooth contact of the pins.
 
 A pin between two teeth rests on the seat, at the pitch circle, and is driven by a flank. Flanks are straight and open
-outwards by the flank angle and end in a tip with round corners; between pin and flank there is backlash. A pin that
-comes in on the taut track must pass the corner, and with a sprocket pitch other than the track's the load jumps from
-tooth to tooth. That, at the link-passing frequency v/p, is the strongest excitation of the vehicle. Every force but
-damping is the gradient of a potential without jumps, so that teeth make no energy.
+outwards by the flank angle and end in a tip with round corners; between pin and flank there is backlash. Or seat and
+flanks are one concave arc. A pin that comes in on the taut track must pass the corner, and with a sprocket pitch other
+than the track's the load jumps from tooth to tooth. That, at the link-passing frequency v/p, is the strongest
+excitation of the vehicle. What touches need not be the pin: shoes may have cylinders for it at other places. Every
+force but damping and friction is the gradient of a potential without jumps, so that teeth make no energy.
 """
 
 from math import pi, radians, sin
@@ -15,7 +16,7 @@ import numpy as np
 from ...numerics.compiled import inlined, kernel
 from ..body_tree import SIDES, drive_end, sprocket_name
 from .nodes import STRIDE, NodeWorkOffset
-from .wheels import WheelLoadOffset, add_reaction
+from .wheels import CREEP, WheelLoadOffset, add_reaction
 
 
 class Sprockets(NamedTuple):
@@ -31,6 +32,10 @@ class Sprockets(NamedTuple):
     backlash: float  # m from a pin in the middle to the flank, at the pitch circle
     tip_radius: float  # m
     corner: float  # radius of the tip's corner as the pins' centres see it, m
+    arc_centre: float  # m from the hub to the centre of a concave seat; 0 where seat and flanks are straight
+    arc_radius: float  # of a concave seat as the pins' centres see it, m
+    contact: np.ndarray  # (c,) where links touch, parts of their length from the pin behind on
+    friction: float
     stiffness: float  # N/m
     damping: float  # N s/m
     guide_stiffness: float  # N/m
@@ -57,6 +62,10 @@ def build_sprockets(vehicle, rows):
         backlash=s.backlash,
         tip_radius=pitch_radius(vehicle) + s.height,
         corner=s.corner_radius,
+        arc_centre=s.arc_centre or 0.0,
+        arc_radius=s.arc_radius or 0.0,
+        contact=0.5 + np.array(s.contacts) / vehicle.tracks.pitch if s.contacts else np.zeros(1),
+        friction=s.friction or 0.0,
         stiffness=s.stiffness,
         damping=s.damping,
         guide_stiffness=s.guide_stiffness,
@@ -70,50 +79,77 @@ def add_sprocket(sprockets, hub, angle, outermost, n, work, load):
 
     `angle` [rad] is that of the sprocket in the hull.
     """
-    s = sprockets
-    share = 2.0 * np.pi / s.teeth
-    i = outermost - s.teeth // 2 - 1
+    i = outermost - sprockets.teeth // 2 - 1
     i = i + n if i < 1 else i
-    for _ in range(s.teeth + 3):
-        dx, dz = work[i] - hub.x, work[2 * STRIDE + i] - hub.z
-        square = dx * dx + dz * dz
-        if square < s.tip_radius * s.tip_radius:
-            distance = np.sqrt(square)
-            rx, rz = dx / distance, dz / distance  # outwards; (rz, -rx) is the way a sprocket turns
-            # off: angle from the middle between the two teeth, as rotation about +y
-            off = np.arctan2(-dz, dx) - angle
-            off -= share * np.floor(off / share + 0.5)
-            turn = 1.0 if off > 0.0 else -1.0
-            vx, vz = work[3 * STRIDE + i] - hub.vx, work[5 * STRIDE + i] - hub.vz
-            outwards = vx * rx + vz * rz
-            along = vx * rz - vz * rx - hub.spin * distance
-            radial, tangential = 0.0, 0.0
-            seat = s.pitch_radius - distance
-            if seat > 0.0:
-                radial = max(0.0, s.stiffness * seat - s.damping * outwards)
-                load[WheelLoadOffset.DISSIPATION] += outwards * (s.stiffness * seat - radial)
-                load[WheelLoadOffset.STORED] += 0.5 * s.stiffness * seat * seat
-            depth, across, outward = _in_tooth(s, abs(off) * distance, distance)
-            if depth > 0.0:
-                # the way along the circumference grows with distance as well
-                across, outward = turn * across, outward + abs(off) * across
-                closing = across * along + outward * outwards
-                push = max(0.0, s.stiffness * depth + s.damping * closing)
-                tangential = -across * push
-                radial -= outward * push
-                load[WheelLoadOffset.DISSIPATION] += closing * (push - s.stiffness * depth)
-                load[WheelLoadOffset.STORED] += 0.5 * s.stiffness * depth * depth
-            if radial != 0.0 or tangential != 0.0:
-                sideways = work[STRIDE + i] - hub.y
-                vy = work[4 * STRIDE + i] - hub.vy - hub.yaw * dx + hub.roll * dz
-                guide = s.guide_stiffness * sideways + s.guide_damping * vy
-                load[WheelLoadOffset.DISSIPATION] += s.guide_damping * vy * vy
-                load[WheelLoadOffset.STORED] += 0.5 * s.guide_stiffness * sideways * sideways
-                force = (radial * rx + tangential * rz, -guide, radial * rz - tangential * rx)
-                for axis in range(3):
-                    work[(NodeWorkOffset.CONTACT + axis) * STRIDE + i] += force[axis]
-                add_reaction(load, (dx, sideways, dz), force)
-        i = i + 1 if i < n else 1
+    for _ in range(sprockets.teeth + 3):
+        j = i + 1 if i < n else 1
+        for k in range(sprockets.contact.size):
+            _touch(sprockets, hub, angle, sprockets.contact[k], i, j, work, load)
+        i = j
+
+
+@kernel
+def _touch(sprockets, hub, angle, share, i, j, work, load):
+    """Add the force on a point of the link from node i to node j, at a part `share` of its length."""
+    s, rest = sprockets, 1.0 - share
+    dx = rest * work[i] + share * work[i + 1] - hub.x
+    dz = rest * work[2 * STRIDE + i] + share * work[2 * STRIDE + i + 1] - hub.z
+    square = dx * dx + dz * dz
+    if square >= s.tip_radius * s.tip_radius:
+        return
+    distance = np.sqrt(square)
+    rx, rz = dx / distance, dz / distance  # outwards; (rz, -rx) is the way a sprocket turns
+    # off: angle from the middle between the two teeth, as rotation about +y
+    gap = 2.0 * np.pi / s.teeth
+    off = np.arctan2(-dz, dx) - angle
+    off -= gap * np.floor(off / gap + 0.5)
+    turn = 1.0 if off > 0.0 else -1.0
+    vx = rest * work[3 * STRIDE + i] + share * work[3 * STRIDE + i + 1] - hub.vx
+    vz = rest * work[5 * STRIDE + i] + share * work[5 * STRIDE + i + 1] - hub.vz
+    outwards = vx * rx + vz * rz
+    along = vx * rz - vz * rx - hub.spin * distance
+    if s.arc_centre > 0.0:
+        depth, across, outward = _in_arc(s, abs(off), distance)
+        radial, tangential = _push(s, depth, turn * across, outward, along, outwards, load)
+    else:
+        radial, tangential = _push(s, s.pitch_radius - distance, 0.0, -1.0, along, outwards, load)
+        depth, across, outward = _in_tooth(s, abs(off) * distance, distance)
+        # the way along the circumference grows with distance as well
+        more = _push(s, depth, turn * across, outward + abs(off) * turn * across, along, outwards, load)
+        radial, tangential = radial + more[0], tangential + more[1]
+    if radial != 0.0 or tangential != 0.0:
+        sideways = rest * work[STRIDE + i] + share * work[STRIDE + i + 1] - hub.y
+        vy = rest * work[4 * STRIDE + i] + share * work[4 * STRIDE + i + 1] - hub.vy - hub.yaw * dx + hub.roll * dz
+        guide = s.guide_stiffness * sideways + s.guide_damping * vy
+        load[WheelLoadOffset.DISSIPATION] += s.guide_damping * vy * vy
+        load[WheelLoadOffset.STORED] += 0.5 * s.guide_stiffness * sideways * sideways
+        force = (radial * rx + tangential * rz, -guide, radial * rz - tangential * rx)
+        for axis in range(3):
+            work[(NodeWorkOffset.CONTACT + axis) * STRIDE + i] += rest * force[axis]
+            work[(NodeWorkOffset.CONTACT + axis) * STRIDE + j] += share * force[axis]
+        add_reaction(load, (dx, sideways, dz), force)
+
+
+@inlined
+def _push(s, depth, across, outward, along, outwards, load):
+    """Return what a tooth does to a point in it, outwards and along the circumference [N].
+
+    `across` and `outward` are the depth's gradient along the circumference and outwards, `along` and `outwards` the
+    speeds against the tooth [m/s].
+    """
+    if depth <= 0.0:
+        return 0.0, 0.0
+    closing = across * along + outward * outwards
+    push = max(0.0, s.stiffness * depth + s.damping * closing)
+    load[WheelLoadOffset.DISSIPATION] += closing * (push - s.stiffness * depth)
+    load[WheelLoadOffset.STORED] += 0.5 * s.stiffness * depth * depth
+    if s.friction == 0.0:
+        return -outward * push, -across * push
+    steep = np.sqrt(across * across + outward * outward)  # 1, but for what is left out of a straight flank's gradient
+    slip = (outward * along - across * outwards) / steep
+    drag = s.friction * push * slip / np.sqrt(slip * slip + CREEP * CREEP)
+    load[WheelLoadOffset.DISSIPATION] += drag * steep * slip
+    return -outward * push + across * drag, -across * push - outward * drag
 
 
 @inlined
@@ -140,3 +176,26 @@ def _in_tooth(s, way, distance):
     from_centre = np.sqrt(on_flank * to_flank + on_tip * to_tip)
     outward = -(s.sine * on_flank + on_tip) / from_centre
     return s.corner - from_centre, s.cosine * on_flank / from_centre, outward
+
+
+@inlined
+def _in_arc(s, off, distance):
+    """Return what `_in_tooth` does for a concave seat, `off` [rad] from the middle of the gap."""
+    to_tip, cosine, sine = s.tip_radius - distance, np.cos(off), np.sin(off)
+    x, y = distance * cosine - s.arc_centre, distance * sine  # from the arc's centre, outwards and across
+    reach = np.sqrt(x * x + y * y)
+    flank = reach - s.arc_radius
+    if flank <= 0.0:
+        return 0.0, 0.0, 0.0
+    across, outward = (y * cosine - x * sine) / reach, (x * cosine + y * sine) / reach
+    on_flank, on_tip = max(s.corner - flank, 0.0), max(s.corner - to_tip, 0.0)
+    if on_tip == 0.0 and flank <= to_tip:
+        return flank, across, outward
+    if on_flank == 0.0:
+        return to_tip, 0.0, -1.0
+    round_about = np.sqrt(on_flank * on_flank + on_tip * on_tip)
+    return (
+        s.corner - round_about,
+        on_flank * across / round_about,
+        (on_flank * outward - on_tip) / round_about,
+    )

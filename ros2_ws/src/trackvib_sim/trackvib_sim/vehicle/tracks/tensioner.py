@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...numerics.compiled import kernel
+from ..body_tree import drive_end
 
 
 class Tensioner(NamedTuple):
@@ -29,9 +30,13 @@ class TensionerState(NamedTuple):
 
 
 def build_tensioner(vehicle, travel, load):
-    """Return the record for the vehicle, in balance at a travel (2,) [m] with the tracks' pull (2,) [N] along x."""
+    """Return the record for the vehicle, whose taut tracks have a travel (2,) [m] and pull with (2,) [N] along x.
+
+    The springs are in balance with that pull unless the file gives their force.
+    """
     t = vehicle.tensioners
-    return Tensioner(t.stiffness, t.damping, vehicle.idlers.mass, t.stiffness * travel - load, travel)
+    preload = -drive_end(vehicle) * np.array(t.force) if t.force else t.stiffness * travel - load
+    return Tensioner(t.stiffness, t.damping, vehicle.idlers.mass, preload, travel)
 
 
 @kernel

@@ -1,0 +1,1 @@
+"""`study m113`: the M113 beside an independent code."""

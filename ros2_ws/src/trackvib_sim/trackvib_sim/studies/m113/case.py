@@ -1,0 +1,91 @@
+"""One case of the study: the M113, or a variant of it, on one of the reference's roads."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...road.feeder import RoadFeeder
+from ...simulation.run_in import CannotRoll
+from ...simulation.settings import Rates, RunSettings
+from ...simulation.simulation import CHASSIS, HORIZON, RunFailed, Simulation
+from ...vehicle.system import Operation
+from ..case import GOOD
+from .measures import ROAD_BORNE, levels, within
+from .reference import RATE, references, road_of
+from .variants import VARIANTS
+
+RATES = Rates(physics=20_000, control=RATE, odometry=100)
+CORRELATION, RESISTANCE = "correlation", "resistance"
+TENSIONERS = ("left tensioner", "right tensioner")
+_CHUNK = 100  # periods between two looks at tensioners and driver
+_STEP = 0.1  # m between samples of the road-borne part
+
+
+@dataclass(frozen=True)
+class M113Case:
+    """What distinguishes one run from the next."""
+
+    variant: str  # one of `VARIANTS`
+    road: str
+    speed: int  # m/s, nominal
+    track_phase: float  # part of a pitch by which the right track lies ahead of the left one
+
+
+@dataclass(frozen=True)
+class M113Result:
+    """What a case gave; plain values."""
+
+    status: str  # `GOOD`, or "failed: " and why
+    numbers: dict[str, float]  # by name: levels [m/s^2], correlation, tensioners and resistance [N]; empty where failed
+    road_borne: list[float]  # part of the acceleration within `ROAD_BORNE`, every 0.1 m from where it is compared
+
+
+def drive_m113(vehicle, case):
+    """Run a case and return its `M113Result`; a run that leaves the valid range is a result, too."""
+    reference = references()[case.road, case.speed]
+    driven = VARIANTS[case.variant].change(vehicle)
+    settings = RunSettings(Operation(reference.speed, 0.0, False, case.track_phase), RATES, 0.0)
+    try:
+        simulation = Simulation(driven, settings)
+        vertical, place, forces = _drive(simulation, road_of(case.road), reference)
+    except (CannotRoll, RunFailed) as error:
+        return M113Result(f"failed: {error}", {}, [])
+    numbers = levels(vertical, RATE, reference.speed / vehicle.tracks.pitch)
+    grid = places(reference)
+    ours = np.interp(grid, place, within(vertical, RATE, ROAD_BORNE))
+    numbers[CORRELATION] = float(np.corrcoef(ours, road_borne(reference))[0, 1])
+    numbers |= dict(zip((*TENSIONERS, RESISTANCE), forces.mean(axis=0).tolist(), strict=True))
+    return M113Result(GOOD, numbers, ours.round(4).tolist())
+
+
+def places(reference):
+    """Return where the road-borne parts are compared, (g,) m along the road."""
+    return np.arange(reference.start + _STEP, reference.place[-1] - _STEP, _STEP)
+
+
+def road_borne(reference):
+    """Return the reference's part of the acceleration within `ROAD_BORNE` at `places`, (g,) m/s^2."""
+    return np.interp(places(reference), reference.place, within(reference.vertical, RATE, ROAD_BORNE))
+
+
+def _drive(simulation, road, reference):
+    """Return vertical specific forces (k,) and places (k,) along the reference's way, and forces (chunks, 3) [N].
+
+    Forces are those of both tensioners and of the driver.
+    """
+    feeder = RoadFeeder(road, HORIZON)
+    before = round(reference.start / reference.speed * RATE / _CHUNK) * _CHUNK
+    count = before + len(reference.vertical)
+    force, speed = np.zeros((count, len(simulation.sample.specific_force), 3)), np.zeros(count)
+    place, forces = np.zeros(count), []
+    tensioner, state = simulation.system.tracks.tensioner, simulation.state
+    for first in range(0, count, _CHUNK):
+        for start, spacing, heights in feeder.patches(simulation.distance):
+            simulation.road.add(start, spacing, *heights)
+        part = slice(first, first + _CHUNK)
+        at = simulation.distance
+        simulation.advance_many(np.zeros(simulation.coils), force[part], speed[part])
+        place[part] = np.linspace(at, simulation.distance, len(place[part]), endpoint=False)
+        pushed = tensioner.preload - tensioner.stiffness * state.tracks.tensioner.travel
+        forces.append([*np.abs(pushed), state.speed_integral[0]])
+    return force[before:, CHASSIS, 2], place[before:], np.array(forces[before // _CHUNK :])

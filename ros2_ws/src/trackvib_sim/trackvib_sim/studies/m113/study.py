@@ -1,0 +1,103 @@
+"""`trackvib study m113`: the M113 beside an independent code."""
+
+from pathlib import Path
+
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
+from rich.table import Table
+
+from ...console import Description, Terminal
+from ...data import find_vehicle
+from ...new_files import new_file
+from ...rui.linear.modes import describe, modes
+from ...vehicle.linear_vehicle import build_linear_vehicle
+from ...vehicle.system import Operation, build_system
+from ...vehicle.vehicle_file import read_vehicle
+from ..case_store import CaseStore
+from ..run_missing import run_missing
+from .case import RATES, M113Case, M113Result, drive_m113
+from .picture import m113_picture
+from .reference import references
+from .report import report
+from .statics import reference_ride_frequencies, reference_wheel_loads, standing_wheel_loads
+from .table import failures, table_csv, table_rows
+from .variants import BASE, VARIANTS
+
+VEHICLE = "m113"
+HIGHEST = 10.0  # Hz, among which the ride motions are
+
+
+def run_m113(phases, scheduler, out):
+    """Do the study; everything it leaves lies in the folder `out`.
+
+    Parameters
+    ----------
+    phases : int
+        Number of runs a case, each with its own phase between the two tracks.
+    scheduler, out
+        As `table1.run_table1` takes them.
+
+    Raises
+    ------
+    WorkersError, OSError
+        Nothing can run, the folder cannot be used.
+    """
+    vehicle, text = read_vehicle(find_vehicle(VEHICLE))
+    folder, console = Path(out), Terminal()
+    store = CaseStore(folder / "cases", text, M113Case, M113Result)
+    if store.foreign:
+        console.print(f"{store.foreign} runs in {folder} are of another vehicle or version and are not used")
+    columns = (Description(), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console) as progress:
+        found = run_missing(vehicle, cases(phases), store, scheduler, progress, "runs", drive_m113)
+    rows = table_rows(found, vehicle.tracks.pitch)
+    loads = standing_wheel_loads(vehicle), reference_wheel_loads()
+    with new_file(folder / "m113.csv") as file:
+        file.write(table_csv(rows).encode())
+    with new_file(folder / "m113.md") as file:
+        file.write(report(rows, loads, ride_frequencies(vehicle), phases).encode())
+    with new_file(folder / "m113.png") as file:
+        m113_picture(rows, found, file)
+    _print(console, rows, failures(found), folder)
+
+
+def cases(phases):
+    """Return the cases of the study."""
+    return [
+        M113Case(variant, road, speed, k / phases)
+        for variant in VARIANTS
+        for road, speed in references()
+        for k in range(phases)
+    ]
+
+
+def ride_frequencies(vehicle):
+    """Return heave and pitch [Hz] by name, each ours and the reference's."""
+    model = build_linear_vehicle(vehicle, build_system(vehicle, Operation(0.0, 0.0, False), 1.0 / RATES.physics), 0.0)
+    swinging = [mode for mode in modes(model, HIGHEST) if not mode.overdamped]
+    theirs = dict(zip(("heave", "pitch"), reference_ride_frequencies(), strict=True))
+    ours = {name: next(mode.frequency for mode in swinging if f"whole {name}" in str(describe(model, mode)))
+            for name in theirs}  # fmt: skip
+    return {name: (ours[name], theirs[name]) for name in theirs}
+
+
+def _print(console, rows, failed, folder):
+    mine = [row for row in rows if row.variant == BASE]
+    names = list(dict.fromkeys(row.quantity for row in mine if row.agrees is not None))
+    heads = list(dict.fromkeys((row.road, row.speed) for row in mine))
+    table = Table("ours / theirs, m/s²", title="M113 beside Project Chrono; (!) beyond the goal", title_justify="left")
+    for road, speed in heads:
+        table.add_column(f"{road}, {speed} m/s", justify="right")
+    by_place = {(row.quantity, row.road, row.speed): row for row in mine}
+    for name in names:
+        table.add_row(name, *(_cell(by_place.get((name, *head))) for head in heads))
+    console.print(table)
+    for line in failed:
+        console.print(line, soft_wrap=True)
+    console.print(f"left in {folder}: m113.csv, m113.md, m113.png, cases/", soft_wrap=True)
+
+
+def _cell(row):
+    if row is None:
+        return ""
+    text = f"{row.ours:.2f}" if row.theirs is None else f"{row.ours:.2f} / {row.theirs:.2f}"
+    return text + (" (!)" if row.agrees is False else "    ")

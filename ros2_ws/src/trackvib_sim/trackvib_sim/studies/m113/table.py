@@ -1,0 +1,86 @@
+"""Rows of the study: quantities of a case, ours beside the reference's."""
+
+import csv
+from io import StringIO
+from typing import NamedTuple
+
+import numpy as np
+
+from ..case import GOOD
+from .case import CORRELATION, RESISTANCE, TENSIONERS
+from .measures import HIGH, ROAD_BORNE, THIRD_OCTAVES, band_name, levels, line_name, octave_name
+from .reference import RATE, ROUGH, references
+
+# factors within which ours should agree with the reference, by quantity
+GOALS = {band_name(*HIGH): 1.15, **{octave_name(centre): 1.4 for centre in THIRD_OCTAVES}}
+GOALS |= {line_name(k): 1.5 for k in (1, 2, 3)}
+ROAD_BORNE_GOAL, CORRELATION_GOAL, LOAD_GOAL = 1.25, 0.8, 0.03
+
+
+class Row(NamedTuple):
+    """One quantity of one case of a variant, over all track phases."""
+
+    variant: str
+    road: str
+    speed: int  # m/s
+    quantity: str
+    ours: float  # quadratic mean of levels, mean of others; not a number where a run failed
+    scatter: float  # standard deviation
+    theirs: float | None  # where the reference has it
+
+    @property
+    def factor(self):
+        """By how many times ours is more than theirs, or None."""
+        return self.ours / self.theirs if self.theirs else None
+
+    @property
+    def agrees(self):
+        """Whether the goal is reached; None where there is none."""
+        if self.quantity == CORRELATION:
+            return self.ours > CORRELATION_GOAL if self.road == ROUGH else None
+        if self.quantity == band_name(*ROAD_BORNE):
+            return _within(self.factor, ROAD_BORNE_GOAL) if self.road == ROUGH else None
+        return _within(self.factor, GOALS[self.quantity]) if self.quantity in GOALS else None
+
+
+def _within(factor, goal):
+    return bool(1.0 / goal <= factor <= goal)
+
+
+def table_rows(found, pitch):
+    """Return the rows of a dict of cases and results (`case.M113Case`, `case.M113Result`); pitch [m] of the track."""
+    groups = {}
+    for case, result in found.items():
+        groups.setdefault((case.variant, case.road, case.speed), []).append(result)
+    rows = []
+    for (variant, road, speed), results in groups.items():
+        reference = references()[road, speed]
+        theirs = levels(reference.vertical, RATE, reference.speed / pitch)
+        for quantity in (*theirs, CORRELATION, *TENSIONERS, RESISTANCE):
+            if quantity == CORRELATION and road != ROUGH:
+                continue
+            values = np.array([each.numbers.get(quantity, np.nan) for each in results])
+            ours = np.sqrt(np.mean(values**2)) if quantity in theirs else values.mean()
+            rows.append(Row(variant, road, speed, quantity, float(ours), float(values.std()), theirs.get(quantity)))
+    return rows
+
+
+def failures(found):
+    """Return a line about each run that failed."""
+    return [f"{case.variant}, {case.road}, {case.speed} m/s: {result.status}"
+            for case, result in found.items() if result.status != GOOD]  # fmt: skip
+
+
+def table_csv(rows):
+    """Return rows as the text of a CSV file."""
+    text = StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["variant", "road", "speed", "quantity", "ours", "ours_std", "theirs", "factor", "agrees"])
+    for row in rows:
+        theirs, factor = ("" if each is None else f"{each:.4g}" for each in (row.theirs, row.factor))
+        agrees = {None: "", True: "yes", False: "no"}[row.agrees]
+        writer.writerow(
+            [row.variant, row.road, row.speed, row.quantity, f"{row.ours:.4g}", f"{row.scatter:.2g}", theirs, factor,
+             agrees]
+        )  # fmt: skip
+    return text.getvalue()
