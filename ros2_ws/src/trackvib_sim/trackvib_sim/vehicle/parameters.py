@@ -129,7 +129,7 @@ class Vehicle(Section):
             if sensor.body not in known:
                 raise ValueError(f"sensors.{name}: body is {sensor.body!r}, must be one of {', '.join(known)}")
             if name in (CHASSIS, POWERTRAIN) and sensor.divisor not in (None, 1.0):
-                raise ValueError(f"sensors.{name}: divisor is {sensor.divisor:g}, must be 1: controllers need every sample")
+                raise ValueError(f"sensors.{name}: divisor is {sensor.divisor:g}, must be 1, for controllers")
         return self
 
     @model_validator(mode="after")
