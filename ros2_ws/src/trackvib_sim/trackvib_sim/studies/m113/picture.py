@@ -22,13 +22,13 @@ def m113_picture(rows, found, file):
     figure, panels = plt.subplots(3, len(cases), figsize=(3.6 * len(cases), 8.0), layout="constrained")
     by_name = {(row.quantity, row.road, row.speed): row for row in rows if row.variant == BASE}
     for column, case in zip(panels.T, cases, strict=True):
-        _levels(column[0], THIRD_OCTAVES, [by_name[octave_name(c), *case] for c in THIRD_OCTAVES])
+        _levels(column[0], THIRD_OCTAVES, [by_name[(octave_name(c), *case)] for c in THIRD_OCTAVES])
         column[0].set_xscale("log")
         column[0].set_xticks(THIRD_OCTAVES, [f"{c:.0f}" for c in THIRD_OCTAVES], fontsize=7)
         column[0].minorticks_off()
         column[0].set_xlabel("third octave, Hz")
         column[0].set_title(f"{references()[case].name}", fontsize=10)
-        _levels(column[1], LINES, [by_name[line_name(k), *case] for k in LINES])
+        _levels(column[1], LINES, [by_name[(line_name(k), *case)] for k in LINES])
         column[1].set_xticks(LINES)
         column[1].set_xlabel("line k v/p")
         _history(column[2], case, found)

@@ -71,7 +71,7 @@ def _sides(rows):
     ]
     by_place = {(row.quantity, row.road, row.speed): row for row in rows}
     for name in (*TENSIONERS, RESISTANCE):
-        lines.append(_line(name, *(f"{by_place[name, *case].ours / 1e3:.1f}" for case in cases)))
+        lines.append(_line(name, *(f"{by_place[(name, *case)].ours / 1e3:.1f}" for case in cases)))
     return "\n".join(lines) + "\n"
 
 

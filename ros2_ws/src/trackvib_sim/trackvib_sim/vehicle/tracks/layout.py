@@ -26,21 +26,27 @@ def fit_idler(vehicle, side):
     TrackDoesNotFit
         There is no such travel.
     """
-    t, limit, outwards = vehicle.tracks, vehicle.tensioners.travel, -drive_end(vehicle)
-    links = t.links[side]
-
-    def excess(travel):
-        line = _taut_line(vehicle, side, outwards * travel)
-        return _walk(vehicle, side, line, 0.0)[-1] - line.arc[-1]
-
-    most, least = excess(-limit), excess(limit)
-    if not least <= 0.0 <= most:
-        low, high = sorted((links - value / t.pitch) * t.pitch for value in (most, least))
+    limit, outwards = vehicle.tensioners.travel, -drive_end(vehicle)
+    if not _excess(vehicle, side, outwards * limit) <= 0.0 <= _excess(vehicle, side, -outwards * limit):
+        t, (fewest, most) = vehicle.tracks, room_for_links(vehicle, side)
         raise TrackDoesNotFit(
-            f"tracks.links x tracks.pitch is {links * t.pitch:.3f} m on the {SIDE_NAMES[side]}, must be {low:.3f} to "
-            f"{high:.3f} m to fit round the running gear within the tensioners.travel of {limit:g} m"
+            f"tracks.links x tracks.pitch is {t.links[side] * t.pitch:.3f} m on the {SIDE_NAMES[side]}, must be "
+            f"{fewest * t.pitch:.3f} to {most * t.pitch:.3f} m to fit round the running gear within the "
+            f"tensioners.travel of {limit:g} m"
         )
-    return outwards * brentq(excess, -limit, limit, xtol=1e-9)
+    return outwards * brentq(lambda travel: _excess(vehicle, side, outwards * travel), -limit, limit, xtol=1e-9)
+
+
+def room_for_links(vehicle, side):
+    """Return how many links go round a side's running gear with its tensioner all in and all out, no whole numbers."""
+    limit, t = vehicle.tensioners.travel, vehicle.tracks
+    return sorted(t.links[side] - _excess(vehicle, side, travel) / t.pitch for travel in (-limit, limit))
+
+
+def _excess(vehicle, side, travel):
+    """How much longer a side's links, all at pretension, are than the taut line [m]."""
+    line = _taut_line(vehicle, side, travel)
+    return _walk(vehicle, side, line, 0.0)[-1] - line.arc[-1]
 
 
 def end_wheels(vehicle):

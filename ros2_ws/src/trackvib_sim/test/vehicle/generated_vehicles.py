@@ -1,0 +1,116 @@
+"""Vehicles of many kinds, made of the shipped one: stations, rollers, drive end, sides, mounts, bodies, sensors."""
+
+import numpy as np
+import yaml
+from hypothesis import strategies as st
+from trackvib_sim.data import find_vehicle
+from trackvib_sim.vehicle.parameters import Vehicle
+from trackvib_sim.vehicle.tracks.layout import room_for_links
+
+SPACING = 0.85  # m between road wheels
+RADIUS = 0.375  # m of the wheels
+
+
+def quantity(value, unit):
+    """Return a quantity as a vehicle file has it."""
+    return {"value": value, "unit": unit, "source": "assumed"}
+
+
+@st.composite
+def vehicles(draw, **given):
+    """Draw a `Vehicle`; `given` are values of `made`'s parameters that are not drawn."""
+    stations = draw(st.integers(2, 9))
+    drawn = {
+        "stations": stations,
+        "stagger": draw(st.sampled_from([0.0, -0.085, 0.06])),
+        "leading": draw(st.integers(0, stations)),
+        "rollers": draw(st.integers(0, 4)),
+        "front_drive": draw(st.booleans()),
+        "turret": draw(st.booleans()),
+        "mounts": draw(st.integers(3, 8)),
+        "coils": draw(st.integers(0, 3)),
+        "seat": draw(st.booleans()),
+    }
+    return made(**(drawn | given))
+
+
+def made(stations, stagger, leading, rollers, front_drive, turret, mounts, coils, seat):
+    """Return the `Vehicle`: its first `leading` stations have leading arms, its powertrain is free on its mounts."""
+    content = yaml.safe_load(find_vehicle().read_text(encoding="utf-8"))
+    if not turret:
+        del content["bodies"]
+    _stations(content, stations, stagger, leading)
+    _ends(content, stations, rollers, front_drive)
+    _powertrain(content, mounts, coils)
+    if seat:
+        content.setdefault("bodies", {})["seat"] = _seat()
+        content["sensors"] = {"driver": {"body": "seat", "place": quantity([0.0, 0.0, 0.1], "m")}}
+    return _with_links(content)
+
+
+def _stations(content, stations, stagger, leading):
+    arms = content["swing_arms"]
+    x = SPACING * (0.5 * (stations - 1) - np.arange(stations))
+    arms["wheel_x"] = quantity((x - 0.5 * stagger).tolist(), "m")
+    arms["right_wheel_x"] = quantity((x + 0.5 * stagger).tolist(), "m")
+    arms["direction"] = quantity(["leading"] * leading + ["trailing"] * (stations - leading), "-")
+    # the weight is that of six stations
+    arms["wheel_rate"] = quantity(1.9e5 * 6 / stations, "N/m")
+    content["shock_absorbers"]["damping"] = quantity(5e4, "N s/m")
+    content["tyres"]["radial_stiffness"] = quantity(6.9e6 * 6 / stations, "N/m")
+
+
+def _ends(content, stations, rollers, front_drive):
+    outside = 0.5 * SPACING * (stations - 1) + 0.9
+    drive = 1.0 if front_drive else -1.0
+    content["sprockets"]["x"], content["idlers"]["x"] = quantity(drive * outside, "m"), quantity(-drive * outside, "m")
+    if rollers:
+        x = outside * (1.0 - 2.0 * (1.0 + np.arange(rollers)) / (rollers + 1.0))
+        content["carrier_rollers"]["x"] = quantity(x.tolist(), "m")
+        content["carrier_rollers"]["z"] = quantity([0.92] * rollers, "m")
+    else:
+        del content["carrier_rollers"], content["roller_rims"]
+    content["powertrain"]["place"] = quantity([-0.4 * outside, 0.0, 0.8], "m")
+
+
+def _powertrain(content, mounts, coils):
+    powertrain = content["powertrain"]
+    for item in ("axis", "stiffness", "damping"):
+        del powertrain[item]
+    powertrain["hinge"] = "free"
+    stiffness = quantity([1.5e6, 1.2e6, 2e6], "N/m")
+    damping = quantity([3e3] * 3, "N s/m")
+    content["mount_types"]["rubber"] = {"kind": "rubber", "stiffness": stiffness, "damping": damping}
+    angle = 2.0 * np.pi * np.arange(mounts) / mounts
+    places = np.stack((0.55 + 0.8 * np.cos(angle), 0.5 * np.sin(angle), 0.05 * np.cos(2.0 * angle)), axis=1)
+    content["mounts"] = {
+        f"mount_{k}": {
+            "type": "mr" if k < coils else "rubber",
+            "place": quantity(place.tolist(), "m"),
+            "orientation": quantity([0.0, 0.0, float(np.degrees(angle[k])) - 180.0], "deg"),
+        }
+        for k, place in enumerate(places)
+    }
+
+
+def _seat():
+    return {
+        "hinge": "elastic",
+        "mass": quantity(90.0, "kg"),
+        "centre": quantity([0.0, 0.0, 0.3], "m"),
+        "inertia": quantity([8.0, 9.0, 4.0], "kg m^2"),
+        "products": quantity([0.0, 0.0, 0.0], "kg m^2"),
+        "place": quantity([0.6, 0.4, 0.7], "m"),
+        "stiffness": quantity([4e5, 4e5, 4e4], "N/m"),
+        "damping": quantity([1e3, 1e3, 1e3], "N s/m"),
+        "turning_stiffness": quantity([2e4, 2e4, 2e4], "N m/rad"),
+        "turning_damping": quantity([50.0, 50.0, 50.0], "N m s/rad"),
+    }
+
+
+def _with_links(content):
+    """The vehicle with as many links a side as go round its running gear."""
+    vehicle = Vehicle.model_validate(content)
+    links = [round(np.mean(room_for_links(vehicle, side))) for side in range(2)]
+    content["tracks"]["links"] = quantity(links, "-")
+    return Vehicle.model_validate(content)
