@@ -32,7 +32,7 @@ def other(tmp_path):
         content = yaml.safe_load(find_vehicle().read_text(encoding="utf-8"))
         content[section][item]["value"] = value
         path = tmp_path / "mine.yaml"
-        path.write_text(yaml.safe_dump(content), encoding="utf-8")
+        path.write_text(yaml.safe_dump(content, sort_keys=False), encoding="utf-8")
         return path
 
     return make

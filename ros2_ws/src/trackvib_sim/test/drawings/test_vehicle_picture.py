@@ -136,7 +136,7 @@ def fitting(content):
     """The vehicle of a file's content with as many links as fit round it."""
     for links in range(100, 140):
         content["tracks"]["links"]["value"] = links
-        vehicle = parse_vehicle(yaml.safe_dump(content), "made")
+        vehicle = parse_vehicle(yaml.safe_dump(content, sort_keys=False), "made")
         with suppress(TrackDoesNotFit):
             assemble_vehicle(vehicle)
             return vehicle
