@@ -63,9 +63,9 @@ def _sides(rows):
     lines = [
         "## Tensioners and running resistance",
         "",
-        "Means over the runs, kN. Theirs at the tensioners in motion: 25 to 27 left, 3.7 to 4.5 right; the law of the",
-        "springs is the same, the forces follow from the lengths of tracks and running gear. Running resistance was not",
-        "recorded there.",
+        "Means over the runs, kN. Theirs at the tensioners in motion: 25 to 27 left, 3.7 to 4.5 right. The springs have",
+        "the same law; forces follow from the lengths of tracks and running gear. Running resistance was not recorded",
+        "there.",
         "",
         *_header("", *(f"{road}, {speed} m/s" for road, speed in cases)),
     ]
@@ -106,8 +106,8 @@ def _variants(rows):
     lines = [
         "## What differences come from",
         "",
-        "One thing changed at a time: levels as factors of those of the vehicle file, geometric mean over the four cases",
-        "(0.5-5 Hz and correlation: the rough road; the latter as it is).",
+        "One thing changed at a time: levels as factors of those of the vehicle file, geometric mean over the four",
+        "cases (0.5-5 Hz and correlation: the rough road; the latter as it is).",
         "",
         *_header("variant", *names),
     ]
