@@ -54,7 +54,7 @@ def test_reference_has_the_levels_that_it_was_handed_over_with(road, speed, high
 
 @pytest.mark.cross_engine
 def test_rough_road_at_ten_metres_a_second_agrees(m113, rough_ten):
-    """100-500 Hz within 1.15, third octaves but those of 100 and 200 Hz within 1.4; the road's part; tensioners by their law.
+    """100-500 Hz within 1.15, its third octaves but 100 and 200 Hz within 1.4; the road's part; tensioners' forces.
 
     The reference measured 25 to 27 kN left and 3.7 to 4.5 kN right.
     """

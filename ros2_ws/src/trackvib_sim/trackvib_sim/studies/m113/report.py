@@ -33,9 +33,11 @@ Vertical acceleration of the hull at its centre of mass, RMS in m/s²: ours / th
 them; **bold** where the goal is not reached. Ours is the quadratic mean over {phases} phases between the tracks, at
 20 kHz; theirs is one run a case of 6 s. Goals:
 
-* {_HIGH} within {GOALS[_HIGH]:g}, third octaves within {GOALS[octave_name(THIRD_OCTAVES[0])]:g};
+* {_HIGH} within {GOALS[_HIGH]:g};
+* third octaves there within {GOALS[octave_name(THIRD_OCTAVES[0])]:g};
 * lines 1 to 3, k v/p, within {GOALS[line_name(1)]:g};
-* 0.5-5 Hz on the rough road within {ROAD_BORNE_GOAL:g} and, against place, correlated by more than {CORRELATION_GOAL:g}.
+* 0.5-5 Hz on the rough road within {ROAD_BORNE_GOAL:g};
+* the same against place correlated by more than {CORRELATION_GOAL:g}.
 
 The bands from 5 to 100 Hz, and all below 20 Hz on level ground, are no goals: that code shakes there as it stands.
 """
@@ -63,9 +65,9 @@ def _sides(rows):
     lines = [
         "## Tensioners and running resistance",
         "",
-        "Means over the runs, kN. Theirs at the tensioners in motion: 25 to 27 left, 3.7 to 4.5 right. The springs have",
-        "the same law; forces follow from the lengths of tracks and running gear. Running resistance was not recorded",
-        "there.",
+        "Means over the runs, kN. Theirs at the tensioners in motion: 25 to 27 left, 3.7 to 4.5 right. The springs",
+        "have the same law; forces follow from the lengths of tracks and running gear. Running resistance was not",
+        "recorded there.",
         "",
         *_header("", *(f"{road}, {speed} m/s" for road, speed in cases)),
     ]
