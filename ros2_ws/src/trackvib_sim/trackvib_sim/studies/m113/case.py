@@ -84,7 +84,7 @@ def _drive(simulation, road, reference):
             simulation.road.add(start, spacing, *heights)
         part = slice(first, first + _CHUNK)
         at = simulation.distance
-        simulation.advance_many(np.zeros(simulation.coils), force[part], speed[part])
+        simulation.advance_many(np.zeros(simulation.mounting.coils), force[part], speed[part])
         place[part] = np.linspace(at, simulation.distance, len(place[part]), endpoint=False)
         pushed = tensioner.preload - tensioner.stiffness * state.tracks.tensioner.travel
         forces.append([*np.abs(pushed), state.speed_integral[0]])

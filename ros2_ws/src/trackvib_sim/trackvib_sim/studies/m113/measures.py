@@ -17,7 +17,7 @@ def band_name(low, high):
 
 def octave_name(centre):
     """Return what a third octave is called."""
-    return f"third octave {centre:.0f} Hz"
+    return f"octave/3 {centre:.0f} Hz"
 
 
 def line_name(k):

@@ -106,7 +106,7 @@ def standing_wheel_loads(vehicle):
     around = np.zeros((2, round(20.0 / SPACING)))
     simulation.road.add(-10.0, SPACING, *around)
     force, speed = np.zeros((2000, len(simulation.sample.specific_force), 3)), np.zeros(2000)
-    simulation.advance_many(np.zeros(simulation.coils), force, speed)
+    simulation.advance_many(np.zeros(simulation.mounting.coils), force, speed)
     bars, arms = simulation.system.suspension, vehicle.swing_arms
     jounce = simulation.state.tree.hinge[bars.row]
     reach = arms.length * np.cos(radians(arms.static_angle) - jounce)

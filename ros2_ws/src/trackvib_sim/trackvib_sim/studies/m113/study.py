@@ -19,7 +19,7 @@ from .picture import m113_picture
 from .reference import references
 from .report import report
 from .statics import reference_ride_frequencies, reference_wheel_loads, standing_wheel_loads
-from .table import failures, table_csv, table_rows
+from .table import FACTORS, failures, table_csv, table_rows, variant_factors
 from .variants import BASE, VARIANTS
 
 VEHICLE = "m113"
@@ -57,7 +57,7 @@ def run_m113(phases, scheduler, out):
         file.write(report(rows, loads, ride_frequencies(vehicle), phases).encode())
     with new_file(folder / "m113.png") as file:
         m113_picture(rows, found, file)
-    _print(console, rows, failures(found), folder)
+    _print(console, rows, loads, failures(found), folder)
 
 
 def cases(phases):
@@ -80,17 +80,27 @@ def ride_frequencies(vehicle):
     return {name: (ours[name], theirs[name]) for name in theirs}
 
 
-def _print(console, rows, failed, folder):
+def _print(console, rows, loads, failed, folder):
     mine = [row for row in rows if row.variant == BASE]
     names = list(dict.fromkeys(row.quantity for row in mine if row.agrees is not None))
     heads = list(dict.fromkeys((row.road, row.speed) for row in mine))
-    table = Table("ours / theirs, m/s²", title="M113 beside Project Chrono; (!) beyond the goal", title_justify="left")
+    title = "M113 beside Project Chrono, ours / theirs, RMS in m/s²; ! is beyond the goal"
+    table = Table("", title=title, title_justify="left")
     for road, speed in heads:
         table.add_column(f"{road}, {speed} m/s", justify="right")
     by_place = {(row.quantity, row.road, row.speed): row for row in mine}
     for name in names:
         table.add_row(name, *(_cell(by_place.get((name, *head))) for head in heads))
     console.print(table)
+    factors = ", ".join(f"{each:.2f}" for each in (loads[0] / loads[1]).ravel())
+    console.print(f"static wheel loads, ours / theirs, left and right from front to rear: {factors}", soft_wrap=True)
+    title = "One thing changed: levels as factors of those above, correlation as it is"
+    changed = Table("variant", title=title, title_justify="left")
+    for name in FACTORS:
+        changed.add_column(name, justify="right")
+    for name, values in variant_factors(rows).items():
+        changed.add_row(name, *(f"{each:.2f}" for each in values))
+    console.print(changed)
     for line in failed:
         console.print(line, soft_wrap=True)
     console.print(f"left in {folder}: m113.csv, m113.md, m113.png, cases/", soft_wrap=True)
@@ -100,4 +110,4 @@ def _cell(row):
     if row is None:
         return ""
     text = f"{row.ours:.2f}" if row.theirs is None else f"{row.ours:.2f} / {row.theirs:.2f}"
-    return text + (" (!)" if row.agrees is False else "    ")
+    return text + (" !" if row.agrees is False else "  ")

@@ -10,11 +10,14 @@ from ..case import GOOD
 from .case import CORRELATION, RESISTANCE, TENSIONERS
 from .measures import HIGH, ROAD_BORNE, THIRD_OCTAVES, band_name, levels, line_name, octave_name
 from .reference import RATE, ROUGH, references
+from .variants import BASE, VARIANTS
 
 # factors within which ours should agree with the reference, by quantity
 GOALS = {band_name(*HIGH): 1.15, **{octave_name(centre): 1.4 for centre in THIRD_OCTAVES}}
 GOALS |= {line_name(k): 1.5 for k in (1, 2, 3)}
 ROAD_BORNE_GOAL, CORRELATION_GOAL, LOAD_GOAL = 1.25, 0.8, 0.03
+# what variants are judged by
+FACTORS = (band_name(*ROAD_BORNE), band_name(*HIGH), *(line_name(k) for k in (1, 2, 3)), CORRELATION)
 
 
 class Row(NamedTuple):
@@ -63,6 +66,24 @@ def table_rows(found, pitch):
             ours = np.sqrt(np.mean(values**2)) if quantity in theirs else values.mean()
             rows.append(Row(variant, road, speed, quantity, float(ours), float(values.std()), theirs.get(quantity)))
     return rows
+
+
+def variant_factors(rows):
+    """Return what each variant makes of the vehicle's own levels, by its name: a factor for each of `FACTORS`.
+
+    Geometric means over the cases, the rough ones where the road plays the part; the correlation is as it is.
+    """
+    base = {(row.road, row.speed, row.quantity): row.ours for row in rows if row.variant == BASE}
+
+    def factor(variant, quantity):
+        of_the_road = quantity in (FACTORS[0], CORRELATION)
+        mine = [row for row in rows if (row.variant, row.quantity) == (variant, quantity)]
+        mine = [row for row in mine if row.road == ROUGH or not of_the_road]
+        if quantity == CORRELATION:
+            return float(np.mean([row.ours for row in mine]))
+        return float(np.exp(np.mean([np.log(row.ours / base[row.road, row.speed, quantity]) for row in mine])))
+
+    return {variant: [factor(variant, quantity) for quantity in FACTORS] for variant in VARIANTS}
 
 
 def failures(found):

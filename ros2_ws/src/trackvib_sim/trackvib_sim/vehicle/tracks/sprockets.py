@@ -91,9 +91,8 @@ def add_sprocket(sprockets, hub, angle, outermost, n, work, load):
 @kernel
 def _touch(sprockets, hub, angle, share, i, j, work, load):
     """Add the force on a point of the link from node i to node j, at a part `share` of its length."""
-    s, rest = sprockets, 1.0 - share
-    dx = rest * work[i] + share * work[i + 1] - hub.x
-    dz = rest * work[2 * STRIDE + i] + share * work[2 * STRIDE + i + 1] - hub.z
+    s = sprockets
+    dx, dz = _between(work, i, share) - hub.x, _between(work, 2 * STRIDE + i, share) - hub.z
     square = dx * dx + dz * dz
     if square >= s.tip_radius * s.tip_radius:
         return
@@ -104,8 +103,7 @@ def _touch(sprockets, hub, angle, share, i, j, work, load):
     off = np.arctan2(-dz, dx) - angle
     off -= gap * np.floor(off / gap + 0.5)
     turn = 1.0 if off > 0.0 else -1.0
-    vx = rest * work[3 * STRIDE + i] + share * work[3 * STRIDE + i + 1] - hub.vx
-    vz = rest * work[5 * STRIDE + i] + share * work[5 * STRIDE + i + 1] - hub.vz
+    vx, vz = _between(work, 3 * STRIDE + i, share) - hub.vx, _between(work, 5 * STRIDE + i, share) - hub.vz
     outwards = vx * rx + vz * rz
     along = vx * rz - vz * rx - hub.spin * distance
     if s.arc_centre > 0.0:
@@ -118,16 +116,22 @@ def _touch(sprockets, hub, angle, share, i, j, work, load):
         more = _push(s, depth, turn * across, outward + abs(off) * turn * across, along, outwards, load)
         radial, tangential = radial + more[0], tangential + more[1]
     if radial != 0.0 or tangential != 0.0:
-        sideways = rest * work[STRIDE + i] + share * work[STRIDE + i + 1] - hub.y
-        vy = rest * work[4 * STRIDE + i] + share * work[4 * STRIDE + i + 1] - hub.vy - hub.yaw * dx + hub.roll * dz
+        sideways = _between(work, STRIDE + i, share) - hub.y
+        vy = _between(work, 4 * STRIDE + i, share) - hub.vy - hub.yaw * dx + hub.roll * dz
         guide = s.guide_stiffness * sideways + s.guide_damping * vy
         load[WheelLoadOffset.DISSIPATION] += s.guide_damping * vy * vy
         load[WheelLoadOffset.STORED] += 0.5 * s.guide_stiffness * sideways * sideways
         force = (radial * rx + tangential * rz, -guide, radial * rz - tangential * rx)
         for axis in range(3):
-            work[(NodeWorkOffset.CONTACT + axis) * STRIDE + i] += rest * force[axis]
+            work[(NodeWorkOffset.CONTACT + axis) * STRIDE + i] += (1.0 - share) * force[axis]
             work[(NodeWorkOffset.CONTACT + axis) * STRIDE + j] += share * force[axis]
         add_reaction(load, (dx, sideways, dz), force)
+
+
+@inlined
+def _between(work, cell, share):
+    """Return a quantity at a part `share` of a link's length, from that of the node behind it in a cell on."""
+    return work[cell] if share == 0.0 else (1.0 - share) * work[cell] + share * work[cell + 1]
 
 
 @inlined
