@@ -15,10 +15,13 @@ def refusal(tmp_path):
 
     def refuse(vehicle=(), **values):
         content = yaml.safe_load(find_vehicle().read_text(encoding="utf-8"))
-        for (section, item), value in dict(vehicle).items():
-            content[section][item]["value"] = value
+        for (*sections, item), value in dict(vehicle).items():
+            items = content
+            for section in sections:
+                items = items[section]
+            items[item]["value"] = value
         file = tmp_path / "my.yaml"
-        file.write_text(yaml.safe_dump(content), encoding="utf-8")
+        file.write_text(yaml.safe_dump(content, sort_keys=False), encoding="utf-8")
         defaults = {parameter.name: parameter.default for parameter in PARAMETERS}
         with pytest.raises(ParameterError) as refused:
             prepare({**defaults, "vehicle_file": str(file), **values})
@@ -40,7 +43,7 @@ def test_defaults_make_a_simulation(vehicle):
     [
         ({("tracks", "links"): 130}, ("tracks.links x tracks.pitch is 14.950 m", "tensioners.travel of 0.1 m")),
         ({("ground", "stiffness"): 1e3, ("ground", "damping"): 0.0}, ("cannot roll at 10 m/s", "vehicle file")),
-        ({("turret", "inertia"): [8500.0, 11000.0, 30000.0]}, ("body 5 (turret)", "sum of the other two")),
+        ({("bodies", "turret", "inertia"): [8500.0, 11000.0, 30000.0]}, ("body 5 (turret)", "sum of the other two")),
         ({("coil", "delay"): 1.5e-4}, ("coil.delay is 0.00015 s", "whole number of physics steps of 0.0001 s")),
         ({("hull", "mass"): -1.0}, ("'vehicle_file'", "hull.mass is -1.0", "greater than 0")),
     ],

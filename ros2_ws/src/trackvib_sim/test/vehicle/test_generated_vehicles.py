@@ -77,8 +77,9 @@ def test_mirror_image_stands_as_the_mirror_image(vehicle):
     tracks = vehicle.tracks.model_copy(update={"links": vehicle.tracks.links[::-1]})
     other = vehicle.model_copy(update={"swing_arms": swapped, "tracks": tracks})
     one, image = (static_equilibrium(standing(each), 1.0).tree for each in (vehicle, other))
-    assert_allclose(image.position[0], MIRROR * one.position[0], atol=1e-9)
-    assert_allclose(image.attitude[0], one.attitude[0] * (1, -1, 1, -1), atol=1e-9)
+    # the tensioners' travel is found to 1e-9 m, on each side for itself
+    assert_allclose(image.position[0], MIRROR * one.position[0], atol=1e-7)
+    assert_allclose(image.attitude[0], one.attitude[0] * (1, -1, 1, -1), atol=1e-7)
 
 
 @FEW

@@ -13,7 +13,7 @@ from trackvib_sim.vehicle.equilibrium import static_equilibrium
 from trackvib_sim.vehicle.tracks.nodes import STRIDE, NodeOffset, NodeWorkOffset
 from trackvib_sim.vehicle.tracks.tracks import add_tracks, new_track_work
 
-RESTING = 12_000  # periods; to and fro on its tracks the vehicle swings with hardly any damping
+RESTING = 16_000  # periods; to and fro on its tracks the vehicle swings with hardly any damping
 
 
 @pytest.fixture(scope="module")

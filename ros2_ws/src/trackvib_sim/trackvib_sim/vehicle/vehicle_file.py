@@ -47,8 +47,8 @@ def read_vehicle(path: str | Path) -> tuple[Vehicle, str]:
     --------
     >>> import trackvib_sim as tv
     >>> vehicle, text = tv.read_vehicle(tv.find_vehicle())
-    >>> vehicle.tracks.links, vehicle.tracks.pitch  # a side, m
-    (120.0, 0.115)
+    >>> vehicle.tracks.links, vehicle.tracks.pitch  # left and right, m
+    ([120.0, 120.0], 0.115)
     """
     try:
         text = read_text(path, "vehicle file")

@@ -63,7 +63,7 @@ def test_scaling_goes_round(scale, low, ratio, share):
 
 def test_values_beyond_the_bounds_are_clipped():
     """A value outside the range has the share of the nearer bound."""
-    parameter = of("sprockets.z[0]", 0.7, 0.79)
+    parameter = of("sprockets.z", 0.7, 0.79)
     assert [parameter.share(value) for value in (0.2, 0.7, 0.79, 5.0)] == [0.0, 0.0, 1.0, 1.0]
     assert (parameter.value(0.0), parameter.value(1.0)) == (0.7, 0.79)
 
@@ -82,8 +82,8 @@ def test_the_shipped_plan_goes_with_the_shipped_vehicle(text, vehicle, paper):
         ({"item": "tracks.colour"}, {}, ("tracks.colour", "no 'colour'")),
         ({"item": "wings.area"}, {}, ("wings.area", "no 'wings'")),
         ({"item": "tracks"}, {}, ("'tracks'", "section.item")),
-        ({"item": "sprockets.z"}, {}, ("sprockets.z", "list of 1", "sprockets.z[0]")),
-        ({"item": "sprockets.z[1]"}, {}, ("sprockets.z[1]", "no such element")),
+        ({"item": "hull.centre"}, {}, ("hull.centre", "list of 3", "hull.centre[0]")),
+        ({"item": "hull.centre[3]"}, {}, ("hull.centre[3]", "no such element")),
         ({"item": "hull.mass[0]"}, {}, ("hull.mass[0]", "no such element")),
         ({"low": 2.0, "high": 2.0}, {}, ("low is 2", "below high")),
         ({"low": -1.0}, {}, ("low is -1", "> 0", "log")),

@@ -113,7 +113,7 @@ def _touch(sprockets, hub, angle, share, i, j, work, load):
         radial, tangential = _push(s, s.pitch_radius - distance, 0.0, -1.0, along, outwards, load)
         depth, across, outward = _in_tooth(s, abs(off) * distance, distance)
         # the way along the circumference grows with distance as well
-        more = _push(s, depth, turn * across, outward + abs(off) * turn * across, along, outwards, load)
+        more = _push(s, depth, turn * across, outward + abs(off) * across, along, outwards, load)
         radial, tangential = radial + more[0], tangential + more[1]
     if radial != 0.0 or tangential != 0.0:
         sideways = _between(work, STRIDE + i, share) - hub.y
