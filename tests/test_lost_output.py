@@ -148,11 +148,13 @@ def test_a_run_that_lost_messages_says_so(start_cli, observer, tmp_path):
     wait_until(lambda: log.exists() and "answering" in log.read_text())
     recorder = children(run.pid)["recorder"]
     os.kill(recorder, signal.SIGSTOP)
-    wait_until(lambda: "the recorder does not keep up" in log.read_text())
-    observer.wait_until(lambda: "time" in observer.values)
-    begin = float(observer.values["time"])
-    observer.wait_until(lambda: float(observer.values["time"]) > begin + 2.5)  # s, its writers hold one of samples
-    os.kill(recorder, signal.SIGCONT)
+    try:
+        wait_until(lambda: "the recorder does not keep up" in log.read_text())
+        observer.wait_until(lambda: "time" in observer.values)
+        begin = float(observer.values["time"])
+        observer.wait_until(lambda: float(observer.values["time"]) > begin + 2.5)  # s, its writers hold one of samples
+    finally:
+        os.kill(recorder, signal.SIGCONT)  # one that stands does not even end with its run
     assert run.wait() == 1
     assert f"the bag in '{tmp_path / 'out'}' is not complete, it lacks" in one_error(run.output)
     assert (tmp_path / "out" / "summary.json").exists()
