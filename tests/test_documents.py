@@ -61,7 +61,7 @@ def test_topics_have_the_types_that_travel(recorded_run):
 def test_rows_say_default_range_and_unit():
     """A parameter's row has its default, what is accepted with the unit, and its meaning."""
     rows = {row[0]: row[1:] for row in code_tables.TABLES["parameters of simulator"]()}
-    assert rows["`speed`"] == ("`10.0`", "0 to 25 m/s", "Speed that the driver keeps.")
+    assert rows["`speed`"] == ("`10.0`", "-25 to 25 m/s", "Speed that the driver keeps; below 0 backwards.")
     assert rows["`wait_for_recorder`"][:2] == ("`false`", "`false`, `true`")
     road = {row[0]: row[1:] for row in code_tables.TABLES["parameters of road_excitation"]()}
     assert road["`road_class`"][1] == ", ".join(f"`{each}`" for each in CLASSES)

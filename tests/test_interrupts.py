@@ -104,7 +104,7 @@ def test_impossible_domain_is_refused(start_cli, env, domain):
     ("arguments", "words"),
     [
         (["--road-class", "Z"], ["--road-class", "'Z'", "'A', 'B', 'C', 'D', 'E', 'F', 'G', 'H'"]),
-        (["--speed", "200"], ["--speed", "200", "0.0<=x<=25.0"]),
+        (["--speed", "200"], ["--speed", "200", "-25.0<=x<=25.0"]),
         (["--speed", "nan"], ["--speed", "nan"]),
         (["--duration", "0"], ["--duration", "0.1<=x<=3600.0"]),
         (["--duration", "2"], ["--duration", "2 s", "at least 3.0 s"]),

@@ -35,7 +35,7 @@ def test_waits_and_ends_cleanly(start_node, tmp_path, name, number):
 @pytest.mark.parametrize(
     ("name", "parameters", "words"),
     [
-        ("simulator", {"speed": 80.0}, ["'speed'", "80.0", "0 to 25 m/s"]),
+        ("simulator", {"speed": 80.0}, ["'speed'", "80.0", "-25 to 25 m/s"]),
         ("simulator", {"speed": "fast"}, ["'speed'", "'fast'", "a number"]),
         ("simulator", {"sped": 5.0}, ["'sped'", "known are", "speed"]),
         ("simulator", {"pace": "slow"}, ["'pace'", "'slow'", "lockstep, realtime"]),
@@ -58,7 +58,7 @@ def test_waits_and_ends_cleanly(start_node, tmp_path, name, number):
         ("player", {"use_sim_time": 3}, ["player: parameter 'use_sim_time' is 3", "true or false"]),
         ("player", {"start_type_description_service": " "}, ["'start_type_description_service'", "true or false"]),
         ("player", {"bag": "x" * 300}, ["xx' cannot be read: File name too long"]),
-        ("simulator", {"speed": "9" * 5000}, ["'speed'", "99 ... 99", "0 to 25 m/s"]),
+        ("simulator", {"speed": "9" * 5000}, ["'speed'", "99 ... 99", "-25 to 25 m/s"]),
     ],
 )
 def test_bad_parameter_is_refused_by_name(start_node, tmp_path, name, parameters, words):

@@ -71,7 +71,13 @@ def _interrupt():
     show_default=True,
     help="Class of the road by ISO 8608.",
 )
-@click.option("--speed", type=FiniteRange(0.0, 25.0), default=10.0, show_default=True, help="Speed in m/s.")
+@click.option(
+    "--speed",
+    type=FiniteRange(-25.0, 25.0),
+    default=10.0,
+    show_default=True,
+    help="Speed in m/s; below 0 backwards.",
+)
 @click.option("--duration", type=FiniteRange(0.1, 3600.0), default=10.0, show_default=True, help="Simulated time in s.")
 @click.option(
     "--law",

@@ -48,7 +48,7 @@ def known_lines(spectra, speed, speed_deviation, pitch, engine_speed, orders):
     orders : sequence of float
         Of the engine, cycles a revolution.
     """
-    passing, turning = speed / pitch, engine_speed / 60.0
+    passing, turning = abs(speed) / pitch, engine_speed / 60.0
     wanted = [
         (f"link passing {n}", n * passing, HALF_WIDTH + 2.0 * n * speed_deviation / pitch)
         for n in range(1, HARMONICS + 1)

@@ -15,7 +15,7 @@ from ..vehicle.vehicle_file import VehicleFileError, parse_vehicle, read_vehicle
 
 PARAMETERS = (
     Parameter("vehicle_file", "", "Vehicle file; empty for the one that comes with the package."),
-    Parameter("speed", 10.0, "Speed that the driver keeps.", "m/s", 0.0, 25.0),
+    Parameter("speed", 10.0, "Speed that the driver keeps; below 0 backwards.", "m/s", -25.0, 25.0),
     Parameter("engine_speed", 1650.0, "Engine speed; 0 for a standing engine.", "r/min", 0.0, 4000.0),
     Parameter(
         "engine_excitation",
