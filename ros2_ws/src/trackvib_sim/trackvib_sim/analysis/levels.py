@@ -40,7 +40,7 @@ class Bins(NamedTuple):
         inside = (index >= 0) & (index < self.count)
         index, values = index[inside], values[inside]
         columns = [np.bincount(index, column, self.count) for column in values.T]
-        return np.bincount(index, minlength=self.count), np.stack(columns, axis=1)
+        return np.bincount(index, minlength=self.count), np.reshape(columns, (-1, self.count)).T
 
 
 def build_bins(begin, last):

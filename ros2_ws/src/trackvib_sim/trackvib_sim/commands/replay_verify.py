@@ -57,7 +57,8 @@ def verify(bag, console):
         raise NotVerifiable("its run followed the wall clock (pace is 'realtime'), so it depends on the machine")
     _require_same_mounts(recording.mounting, simulation.mounting)
     mounts = _Stream(recording, topics.MOUNT_STATE, simulation.mounting.names)
-    recorded = [name for name, _ in simulation.sensors if topics.imu_topic(name) in recording.streams]
+    names = [sensor.name for sensor in simulation.sensors]
+    recorded = [name for name in names if topics.imu_topic(name) in recording.streams]
     sensors = {name: _Stream(recording, topics.imu_topic(name)) for name in recorded}
     # the mounts first: a wrong current is seen there by its name
     streams, readings = (mounts, *sensors.values()), Readings(simulation)

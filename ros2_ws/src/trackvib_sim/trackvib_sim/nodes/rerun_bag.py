@@ -22,7 +22,7 @@ class RerunBag:
         self._periods_an_odometry = rates.control // rates.odometry
         self._periods_a_diagnosis = rates.control // DIAGNOSTICS_RATE
         self._readings = Readings(simulation)
-        self._imus = {name: ImuMessage(topics.imu_frame(name)) for name, _ in simulation.sensors}
+        self._imus = {sensor.name: ImuMessage(topics.imu_frame(sensor.name)) for sensor in simulation.sensors}
         self._mounts, self._odometry = MountMessage(simulation.sample.mounts), OdometryMessage()
         self._clock, self._answer = Clock(), CoilCurrent()
 
