@@ -73,15 +73,26 @@ def test_road_a_little_behind_is_still_there():
 
 
 @pytest.mark.property
-def test_road_far_behind_is_forgotten():
-    """Along a long road a store holds no more than what is around the vehicle and kept behind it."""
+@pytest.mark.parametrize("way", [1, -1])
+def test_road_far_behind_is_forgotten(way):
+    """Along a long road, driven forwards or backwards, a store holds what is around the vehicle and kept behind it."""
     store = RoadStore()
-    put(store, 0, 100)
-    for k in range(1, 200):
+    store.add(0.0, SPACING, *np.zeros((2, 100)))
+    for k in range(way, way * 200, way):
         store.add(5.0 * k, SPACING, *np.zeros((2, 100)))
-        road = store.around(5.0 * k - 3.0, 5.0 * k + 3.0)
+        road = store.around(5.0 * k + 2.5 - way * 2.5 - 0.1, 5.0 * k + 2.5 - way * 2.5 + 0.1)
         assert road.height.shape[1] * SPACING < KEPT_BEHIND + 20.0
     assert store.around(1.0, 2.0) is None
+
+
+@pytest.mark.property
+def test_road_at_hand_is_there_for_both_ways():
+    """All road of a run, held before it begins, is kept on the side to which it goes."""
+    for places in (range(0, 100, 5), range(0, -100, -5)):
+        store = RoadStore()
+        for k in range(-25, 25):
+            store.add(5.0 * k, SPACING, *np.zeros((2, 100)))
+        assert all(store.around(place - 3.0, place + 3.0) is not None for place in places)
 
 
 @pytest.mark.property

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-KEPT_BEHIND = 20.0  # m
+KEPT_BEHIND = 20.0  # m of road that has been driven over
 _FINEST, _COARSEST = 1e-3, 100.0  # m between samples
 _MOST = 20_000_000  # samples; 1000 km of them 5 cm apart
 _FAR = 1e15  # samples, up to which whole numbers are exact in floating point
@@ -26,6 +26,7 @@ class RoadStore:
         self._patches = {}  # by spacing: first sample -> heights (2, m)
         self._stretch = None
         self._samples = 0  # of all patches, or somewhat more
+        self._rear = None  # where it was looked for last, m
 
     def add(self, start, spacing, left, right):
         """Keep a patch; of two with one start the longer is kept, and they must agree.
@@ -70,18 +71,29 @@ class RoadStore:
     def around(self, rear, front):
         """Return a `Road` that reaches from distance `rear` to beyond `front` [m], or None if there is a gap.
 
-        Patches that end far behind `rear` are forgotten.
+        Patches that lie far behind whoever drives on, forwards or backwards, are forgotten.
         """
         if not _reaches(self._stretch, rear, front):
             for spacing, patches in self._patches.items():
-                _forget_before((rear - KEPT_BEHIND) / spacing, patches)
+                self._forget_behind(spacing, patches, rear, front)
                 self._stretch = _join(spacing, patches, int(np.floor(rear / spacing)))
                 if _reaches(self._stretch, rear, front):
                     # a patch that stands alone does not tell the spacing: somebody may have sent it by mistake
                     self._spacing, self._patches = spacing, {spacing: patches}
                     break
             self._samples = sum(held.shape[1] for patches in self._patches.values() for held in patches.values())
+            self._rear = rear
         return self._stretch if _reaches(self._stretch, rear, front) else None
+
+    def _forget_behind(self, spacing, patches, rear, front):
+        if self._rear is None:
+            return
+        if rear >= self._rear:
+            behind = [f for f, heights in patches.items() if f + heights.shape[1] < (rear - KEPT_BEHIND) / spacing]
+        else:
+            behind = [f for f in patches if f > (front + KEPT_BEHIND) / spacing]
+        for first in behind:
+            del patches[first]
 
 
 def _join(spacing, patches, wanted):
@@ -95,11 +107,6 @@ def _join(spacing, patches, wanted):
             pieces.append(heights[:, wanted - start :] if pieces else heights)
             wanted = end
     return Road(first, spacing, np.concatenate(pieces, axis=1)) if pieces else None
-
-
-def _forget_before(limit, patches):
-    for first in [f for f, heights in patches.items() if f + heights.shape[1] < limit]:
-        del patches[first]
 
 
 def _reaches(road, rear, front):
