@@ -12,7 +12,7 @@ from trackvib_sim.vehicle.vehicle_file import read_vehicle
 pytestmark = [pytest.mark.system, pytest.mark.slow(reason="searches over many drives")]
 
 PNG = b"\x89PNG\r\n\x1a\n"
-BOUNDS = {"tracks.pretension": (1e4, 3e4), "sprockets.z[0]": (0.72, 0.77)}
+BOUNDS = {"tracks.pretension": (1e4, 3e4), "sprockets.z": (0.72, 0.77)}
 PLAN = {
     "rows": [["A", 20]],
     "seeds": 1,
@@ -75,8 +75,8 @@ def check_files(folder):
     with (folder / "history.csv").open() as file:
         best = min(csv.DictReader(file.readlines()[1:]), key=lambda line: float(line["objective"]))
     vehicle, text = read_vehicle(folder / "vehicle.yaml")
-    assert vehicle.tracks.pretension == float(best["tracks.pretension"])
-    assert vehicle.sprockets.z == [float(best["sprockets.z[0]"])]
+    assert vehicle.tracks.pretension == [float(best["tracks.pretension"])] * 2
+    assert vehicle.sprockets.z == float(best["sprockets.z"])
     pairs = zip(find_vehicle().read_text().splitlines(), text.splitlines(), strict=True)
     assert sum(old != new for old, new in pairs) == 2
     for item, (low, high) in BOUNDS.items():
@@ -91,7 +91,7 @@ def check_files(folder):
 def test_refuses_in_one_line(start_cli, tmp_path, plan):
     """A bad plan and a folder with another calibration end in one line, exit code 1, and leave everything as it is."""
     bad = tmp_path / "bad.yaml"
-    bad.write_text(plan.read_text().replace("sprockets.z[0]", "sprockets.zz"))
+    bad.write_text(plan.read_text().replace("sprockets.z", "sprockets.zz"))
     taken = tmp_path / "taken"
     taken.mkdir()
     (taken / "history.csv").write_text("# something else\n")
