@@ -1,10 +1,11 @@
-"""The whole vehicle in one process on one core: how much faster than real time, and in calls of Pinocchio's aba.
+"""Whole vehicles in one process on one core: how much faster than real time, and in calls of Pinocchio's aba.
 
     ./trackvib exec -- python bench/vehicle.py
 
-Body tree, two tracks, MR mounts and engine on a road of class E at 10 m/s, in steps of 1e-4 s. Beside it, in turns, the
-articulated-body algorithm of Pinocchio evaluates the body tree alone (its call from Python taken off, see
-bench/body_tree.py): the unit in which machines of different speed can be compared.
+Body tree, two tracks, mounts and engine of each vehicle that comes with the package, on a road of class E at 10 m/s, in
+steps of 1e-4 s. Beside them, in turns, the articulated-body algorithm of Pinocchio evaluates the default vehicle's body
+tree alone (its call from Python taken off, see bench/body_tree.py): the unit in which machines of different speed can
+be compared.
 """
 
 import numpy as np
@@ -12,7 +13,7 @@ from machine import best_times, machine
 from peers import PinocchioTree
 from rich.console import Console
 from rich.table import Table
-from trackvib_sim.data import find_vehicle
+from trackvib_sim.data import DEFAULT_VEHICLE, find_vehicle, vehicle_names
 from trackvib_sim.road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road
 from trackvib_sim.rui.state import rest_state
 from trackvib_sim.simulation.settings import Rates, RunSettings
@@ -38,34 +39,36 @@ class Drive:
         road, spacing = Iso8608Road("E", 1, LEVEL_UNTIL, FADE), 0.05
         first = round(-20.0 / spacing)
         self._simulation.road.add(first * spacing, spacing, *road.heights(first, round(length / spacing) - first))
-        self._force, self._speed = np.empty((CHUNK, 2, 3)), np.empty(CHUNK)
+        self._force, self._speed = np.empty((CHUNK, len(self._simulation.sensors), 3)), np.empty(CHUNK)
+        self._current = np.ones(self._simulation.mounting.coils)
         while self._simulation.distance < LEVEL_UNTIL + FADE:  # onto the full roughness
             self()
 
     def __call__(self):
-        self._simulation.advance_many(np.ones(2), self._force, self._speed)
+        self._simulation.advance_many(self._current, self._force, self._speed)
 
 
 def main():
     """Drive, time, print."""
-    vehicle, _ = read_vehicle(find_vehicle())
-    bodies = build_body_table(vehicle)
-    drive = Drive(vehicle)
+    vehicles = {name: read_vehicle(find_vehicle(name))[0] for name in vehicle_names()}
+    bodies = build_body_table(vehicles[DEFAULT_VEHICLE])
+    drives = {name: Drive(vehicle) for name, vehicle in vehicles.items()}
     peers = {"tree": PinocchioTree(bodies, GRAVITY), "one body": PinocchioTree(bodies[:1], GRAVITY)}
     for name, peer in peers.items():
         state = rest_state(bodies if name == "tree" else bodies[:1])
         peer.accelerations(state, np.zeros(len(state.hinge)))
     conventions = peers["tree"].calls(CALLS).keys()
     tasks = {(name, how): peer.calls(CALLS)[how] for name, peer in peers.items() for how in conventions}
-    times = best_times({"vehicle": drive, **tasks}, ROUNDS)
+    times = best_times({**drives, **tasks}, ROUNDS)
     aba = min(times["tree", how] - times["one body", how] for how in conventions) / CALLS
     simulated = CHUNK * 1e-3
-    factor, calls = simulated / times["vehicle"], times["vehicle"] / simulated / aba
+    factor, calls = simulated / times[DEFAULT_VEHICLE], times[DEFAULT_VEHICLE] / simulated / aba
 
-    table = Table(title=f"The whole vehicle, class E, {SPEED:g} m/s, one core of {machine()}")
+    table = Table(title=f"Whole vehicles, class E, {SPEED:g} m/s, one core of {machine()}")
     for column in ("what", "time, us"):
         table.add_column(column, justify="left" if column == "what" else "right")
-    table.add_row("vehicle, one step of 1e-4 s", f"{1e6 * times['vehicle'] / (10 * CHUNK):.2f}")
+    for name in vehicles:
+        table.add_row(f"{name}, one step of 1e-4 s", f"{1e6 * times[name] / (10 * CHUNK):.2f}")
     table.add_row("Pinocchio aba, body tree alone", f"{1e6 * aba:.2f}")
     Console().print(table)
     print(f"real time factor = {factor:.1f}")
