@@ -24,7 +24,7 @@ from trackvib_sim.bags.contents import contents
 from trackvib_sim.bags.repair import repair
 from trackvib_sim.data import find_vehicle
 from trackvib_sim.nodes.messages import ImuMessage, MountMessage
-from trackvib_sim.vehicle.mounts import new_mount_sample
+from trackvib_sim.vehicle.mounts import MountSample
 
 from .bag_helpers import attachment
 
@@ -209,7 +209,8 @@ def test_bag_says_what_made_it(start_node, start, tmp_path):
 def test_progress_is_that_of_the_slowest_topic(start_node, observer, tmp_path):
     """A recorder that has all accelerations but lacks mount states tells how far it has both."""
     node = observer.node
-    imus, mounts, told = ImuMessage("imu"), MountMessage(new_mount_sample()), []
+    still = MountSample(*(np.zeros(shape) for shape in (2, 2, 2, (2, 3), (2, 3), (2, 3), 2)))
+    imus, mounts, told = ImuMessage("imu"), MountMessage(still), []
     imu_out = node.create_publisher(Imu, "chassis/imu", LOOP_WRITER_QOS)
     mount_out = node.create_publisher(MountState, "mount_state", LOOP_WRITER_QOS)
     node.create_subscription(Time, "recorder/recorded", lambda time: told.append(time.nanosec // MS), LATCHED_QOS)
@@ -219,11 +220,11 @@ def test_progress_is_that_of_the_slowest_topic(start_node, observer, tmp_path):
     for k in range(1, 101):
         imu_out.publish(imus.fill(k * MS, (0.0, 0.0, 9.81), (0.0, 0.0, 0.0)))
         if k <= 40:
-            mount_out.publish(mounts.fill(k * MS, new_mount_sample()))
+            mount_out.publish(mounts.fill(k * MS, still))
     observer.wait_until(lambda: told[-1] == 40)
-    mount_out.publish(mounts.fill(70 * MS, new_mount_sample()))
+    mount_out.publish(mounts.fill(70 * MS, still))
     observer.wait_until(lambda: told[-1] == 70)
-    mount_out.publish(mounts.fill(100 * MS, new_mount_sample()))
+    mount_out.publish(mounts.fill(100 * MS, still))
     observer.wait_until(lambda: told[-1] == 100)
     recorder.signal(signal.SIGINT)
     assert recorder.wait() == 0, recorder.output
