@@ -38,6 +38,14 @@ UNHURRIED = 20.0
 DOMAINS = range(40, 100)
 
 
+def wait_until(condition, seconds=PATIENCE, what="what is waited for"):
+    """Wait until `condition()`, so many seconds at most."""
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, f"{what} never came within {seconds:g} s"
+        time.sleep(0.05)
+
+
 def _begin():
     """In a new process: a test run started in the background of a script has Ctrl-C ignored, and hands that on."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)

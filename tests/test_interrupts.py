@@ -2,28 +2,19 @@
 
 import os
 import signal
-import time
 
 import pytest
 import yaml
 from trackvib_sim.bags.reading import read_recording
 
-from .conftest import PATIENCE
+from .conftest import wait_until
 
 pytestmark = [pytest.mark.system, pytest.mark.slow(reason="starts whole runs to end them")]
 
 
-def wait_for(condition):
-    """Wait until `condition()`."""
-    end = time.monotonic() + PATIENCE
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.05)
-
-
 def wait_for_text(path, text):
     """Wait until a log holds a text."""
-    wait_for(lambda: path.exists() and text in path.read_text())
+    wait_until(lambda: path.exists() and text in path.read_text(), 60.0, f"{text!r} in {path}")
 
 
 def nodes_of(folder):
@@ -47,7 +38,7 @@ def test_interrupted_run_leaves_a_complete_bag(start_cli, tmp_path, number):
     """Ctrl-C, a request to end and a closed terminal all end the nodes in order and close the bag."""
     run = start_cli("run", "--duration", 600, "--out", tmp_path / "run")
     wait_for_text(tmp_path / "run" / "log" / "simulator.log", "running")
-    wait_for(lambda: any(file.stat().st_size > 200_000 for file in (tmp_path / "run" / "bag").glob("*.mcap")))
+    wait_until(lambda: any(file.stat().st_size > 200_000 for file in (tmp_path / "run" / "bag").glob("*.mcap")))
     run.signal(number)
     assert run.wait() == 130, run.output
     assert yaml.safe_load((tmp_path / "run" / "bag" / "metadata.yaml").read_text())
@@ -63,7 +54,7 @@ def test_killed_run_leaves_no_process(start_cli, tmp_path):
     wait_for_text(tmp_path / "run" / "log" / "simulator.log", "running")
     os.kill(run.pid, signal.SIGKILL)
     run.wait()
-    wait_for(lambda: not nodes_of(tmp_path))
+    wait_until(lambda: not nodes_of(tmp_path), 30.0, "the end of all nodes")
     assert (tmp_path / "run" / "bag" / "metadata.yaml").exists()
 
 

@@ -5,7 +5,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -15,7 +14,7 @@ from trackvib_msgs.msg import RoadProfile
 from trackvib_sim.analysis.completeness import missing
 from trackvib_sim.bags.reading import read_recording
 
-from .conftest import PATIENCE
+from .conftest import wait_until
 
 pytestmark = [pytest.mark.system, pytest.mark.slow(reason="does whole runs")]
 
@@ -31,13 +30,6 @@ def children(pid):
     found = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
     return {Path(f"/proc/{child}/cmdline").read_bytes().split(b"\0")[1].rpartition(b"/")[2].decode(): int(child)
             for child in found}  # fmt: skip
-
-
-def wait_until(condition):
-    end = time.monotonic() + PATIENCE
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.05)
 
 
 def one_error(text):

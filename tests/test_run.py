@@ -88,16 +88,16 @@ def test_the_law_acts(drive):
 
 
 def test_same_seed_gives_identical_streams(first, tmp_path):
-    """A second run with the same seed leaves the same bytes on every loop topic, as far as it goes."""
-    run(tmp_path / "again", "--duration", "3.2")
+    """A second run with the same seed leaves the same bytes on every loop topic."""
+    run(tmp_path / "again")
     for topic in LOOP_TOPICS:
-        assert stream(first[0], topic)[:3200] == stream(tmp_path / "again", topic), topic
+        assert stream(first[0], topic) == stream(tmp_path / "again", topic), topic
 
 
 def test_another_seed_gives_another_run(first, tmp_path):
     """Of another seed, the accelerations differ."""
-    run(tmp_path / "other", "--seed", "2", "--duration", "3.2")
-    assert stream(tmp_path / "other", "/chassis/imu") != stream(first[0], "/chassis/imu")[:3200]
+    run(tmp_path / "other", "--seed", "2", "--duration", "4")
+    assert stream(tmp_path / "other", "/chassis/imu") != stream(first[0], "/chassis/imu")[:4000]
 
 
 def test_loop_in_one_process_is_identical(drive):

@@ -35,6 +35,11 @@ _SCHEDULER = click.option("--scheduler", default=None, metavar="ADDRESS",
                           help="Dask scheduler whose workers do it.  [default: all cores of this machine]")  # fmt: skip
 
 
+def _out(default, words="Folder of the study; finished runs in it are not done again."):
+    """The option for the folder that a study leaves."""
+    return click.option("--out", type=click.Path(file_okay=False), default=default, show_default=True, help=words)
+
+
 @study.command()
 @click.option(
     "--classes",
@@ -61,13 +66,7 @@ _SCHEDULER = click.option("--scheduler", default=None, metavar="ADDRESS",
 )
 @vehicle_option
 @_SCHEDULER
-@click.option(
-    "--out",
-    type=click.Path(file_okay=False),
-    default="table1",
-    show_default=True,
-    help="Folder of the study; finished runs in it are not done again.",
-)
+@_out("table1")
 def table1(classes, speeds, seeds, vehicle, scheduler, out):
     """RMS accelerations over classes and speeds, beside the paper's Table 1."""
     with _ends_in_one_line(out):
@@ -83,13 +82,7 @@ def table1(classes, speeds, seeds, vehicle, scheduler, out):
     metavar="ADDRESS",
     help="Dask scheduler whose workers do the runs.  [default: all cores of this machine]",
 )
-@click.option(
-    "--out",
-    type=click.Path(file_okay=False),
-    default="figures",
-    show_default=True,
-    help="Folder of the figures; finished runs in it are not done again.",
-)
+@_out("figures", "Folder of the figures; finished runs in it are not done again.")
 def figures(scheduler, out):
     """The paper's other figures as pictures, and a second solver beside ours."""
     with _ends_in_one_line(out):
@@ -123,13 +116,7 @@ def figures(scheduler, out):
 )
 @vehicle_option
 @_SCHEDULER
-@click.option(
-    "--out",
-    type=click.Path(file_okay=False),
-    default="controllers",
-    show_default=True,
-    help="Folder of the study; finished runs in it are not done again.",
-)
+@_out("controllers")
 def controllers(laws, scenarios, seeds, vehicle, scheduler, out):
     """Every control law on roads, in an engine run-up and over a bump, beside constant currents."""
     with _ends_in_one_line(out):
@@ -158,13 +145,7 @@ def controllers(laws, scenarios, seeds, vehicle, scheduler, out):
     metavar="ADDRESS",
     help="Dask scheduler whose workers do the runs.  [default: all cores of this machine]",
 )
-@click.option(
-    "--out",
-    type=click.Path(file_okay=False),
-    default="calibration",
-    show_default=True,
-    help="Folder of the study; a search in it goes on.",
-)
+@_out("calibration", "Folder of the study; a search in it goes on.")
 def calibrate(generations, plan, vehicle, scheduler, out):
     """Fit uncertain parameters of the vehicle to the rows of the paper's Table 1 that are given."""
     with _ends_in_one_line(out):
@@ -182,13 +163,7 @@ def calibrate(generations, plan, vehicle, scheduler, out):
     help="Runs a case, each with its own phase between the two tracks.",
 )
 @_SCHEDULER
-@click.option(
-    "--out",
-    type=click.Path(file_okay=False),
-    default="m113",
-    show_default=True,
-    help="Folder of the study; finished runs in it are not done again.",
-)
+@_out("m113")
 def m113(phases, scheduler, out):
     """The M113 beside the same vehicle in an independent code, and what differences come from."""
     with _ends_in_one_line(out):

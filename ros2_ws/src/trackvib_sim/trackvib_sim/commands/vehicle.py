@@ -38,10 +38,11 @@ def run_vehicle(name_or_file, picture):
         raise ValueError(f"picture {picture}: its folder must exist")
     path = find_vehicle(name_or_file)
     vehicle, text = read_vehicle(path)
-    tables = _parameters(text, f"Vehicle {path}"), _figures(vehicle)
+    tables = _parameters(text), _figures(vehicle)
     with whole_or_none(Path(picture)) as (file,):
         vehicle_picture(vehicle, file)
     out = Terminal()
+    out.print(f"vehicle: {path}", soft_wrap=True)  # as the title of a table it would be broken in its middle
     for table in tables:
         out.print(table)
     out.print(f"drawing: {picture}")
@@ -69,8 +70,8 @@ def print_schema():
     print(json.dumps({"$schema": SCHEMA, **Vehicle.model_json_schema()}, indent=2))
 
 
-def _parameters(text, title):
-    table = Table(*Parameter._fields, title=title)
+def _parameters(text):
+    table = Table(*Parameter._fields)
     for section, items in parameters(text).items():
         table.add_section()
         table.add_row(Text(readable(section), style="bold"))

@@ -22,6 +22,7 @@ from ..vehicle.body_tree import (  # noqa: E402
     idler_name,
     roller_name,
     sprocket_name,
+    sprung_bodies,
     wheel_name,
 )
 from ..vehicle.running_gear_parameters import at_stations  # noqa: E402
@@ -55,7 +56,6 @@ from .vehicle_views import (  # noqa: E402
     mount_places,
     powertrain_hinge,
     sensors,
-    solids,
 )
 
 NOTE = """dashed: boxes of even density with a body's
@@ -158,8 +158,8 @@ def _measuring_points(plot, assembled, labels):
 
 def _names(plot, assembled, hub, corners, labels):
     v, sprocket, idler = assembled.vehicle, hub[sprocket_name(LEFT)], hub[idler_name(LEFT)]
-    names = list(solids(v))
-    for k, (name, body) in enumerate(solids(v).items()):
+    names = list(sprung_bodies(v))
+    for k, (name, body) in enumerate(sprung_bodies(v).items()):
         on_it = [corners[other] for other in names[k + 1 :]]
         words = f"{name.replace('_', ' ')} {body.mass / 1e3:.1f} t"
         labels.add(plot, words, corners[name].mean(axis=0), box=corners[name], others=on_it)

@@ -10,10 +10,10 @@ from ..vehicle.body_tree import (
     REAR,
     SIDES,
     arm_name,
-    bodies_on_hinges,
     drive_end,
     idler_name,
     sprocket_name,
+    sprung_bodies,
     wheel_name,
 )
 from ..vehicle.parameters import CHASSIS
@@ -52,7 +52,7 @@ def boxes(plot, assembled, view, names=None):
     Returns the corners (2, 2) of each by name, the lower left one first.
     """
     corners = {}
-    for name, solid in solids(assembled.vehicle).items():
+    for name, solid in sprung_bodies(assembled.vehicle).items():
         if names is not None and name not in names:
             continue
         inertia = np.array(solid.inertia)
@@ -68,11 +68,6 @@ def boxes(plot, assembled, view, names=None):
         centre_of_mass(plot, centre)
         corners[name] = np.array([low, high])
     return corners
-
-
-def solids(vehicle):
-    """Return the sections of the bodies that are drawn as boxes, by name, parents first."""
-    return {HULL: vehicle.hull, **bodies_on_hinges(vehicle)}
 
 
 def sensors(plot, assembled, view):
@@ -200,7 +195,7 @@ def _dimensions_from_above(plot, corners, hinge, mounts):
 def _shade(vehicle, name):
     if name == POWERTRAIN:
         return POWERTRAIN_SHADE
-    depth, known = 0, solids(vehicle)
+    depth, known = 0, sprung_bodies(vehicle)
     while name != HULL:
         name, depth = known[name].parent, depth + 1
     return SHADES[min(depth, len(SHADES) - 1)]

@@ -8,7 +8,7 @@ import numpy as np
 from ..road.feeder import HasHeights, RoadFeeder
 from .simulation import HORIZON, Simulation
 
-_CHUNK = 100  # periods in one compiled call
+CHUNK = 100  # periods in one compiled call, and between two calls of `on_progress`
 
 
 class OpenLoopRecord(NamedTuple):
@@ -52,11 +52,11 @@ def run_open_loop(
     current = np.full(simulation.mounting.coils, simulation.settings.passive_current)
     force = np.zeros((periods, *simulation.sample.specific_force.shape))
     speed = np.zeros(periods)
-    for first in range(0, periods, _CHUNK):
+    for first in range(0, periods, CHUNK):
         for start, spacing, heights in feeder.patches(simulation.distance):
             simulation.road.add(start, spacing, *heights)
-        part = slice(first, first + _CHUNK)
+        part = slice(first, first + CHUNK)
         simulation.advance_many(current, force[part], speed[part])
-        on_progress(min(first + _CHUNK, periods))
+        on_progress(min(first + CHUNK, periods))
     time = np.arange(1, periods + 1) / simulation.settings.rates.control
     return OpenLoopRecord(time, force, speed)

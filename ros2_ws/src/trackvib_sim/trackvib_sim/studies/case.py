@@ -12,7 +12,6 @@ from ..simulation.open_loop import run_open_loop
 from ..simulation.run_in import CannotRoll
 from ..simulation.settings import Rates, RunSettings
 from ..simulation.simulation import Probe, RunFailed, Simulation
-from ..vehicle.parameters import POWERTRAIN
 from ..vehicle.sensors import sensors_of
 from ..vehicle.system import Operation
 
@@ -62,8 +61,8 @@ def probes(vehicle):
     mounts [Tao2025]. The third is the hull's own point at the latter place: what a rigid mount would give there.
     """
     rear = vehicle.powertrain.place
-    sensor = next(each for each in sensors_of(vehicle) if each.name == POWERTRAIN)
-    x, y, z = sensor.place
+    _, powertrain, *_ = sensors_of(vehicle)
+    x, y, z = powertrain.place
     return (
         Probe("hull", rear),
         Probe("powertrain", (x, y, z)),

@@ -44,8 +44,8 @@ def bodies_on_hinges(vehicle):
 
 
 def sprung_bodies(vehicle):
-    """Return the names of the bodies that the suspension carries: the hull and all that is not running gear."""
-    return [HULL, *bodies_on_hinges(vehicle)]
+    """Return the sections of the bodies that the suspension carries by name: the hull, then `bodies_on_hinges`."""
+    return {HULL: vehicle.hull, **bodies_on_hinges(vehicle)}
 
 
 def inertia_matrix(solid):

@@ -53,8 +53,8 @@ def static_equilibrium(system, current):
     state, work = new_state(system), new_work(system)
     settle_coils(system.coil, state.coils, current)
     springs, tree, origin = system.springs, system.tree, state.tree.position.copy()
-    mounted = np.setdiff1d(system.mounts.body, tree.elastic.child)
-    sprung = np.union1d(springs.row[springs.stiffness > 0.0], mounted[_movable(tree, mounted)])
+    mounted = np.intersect1d(system.mounts.body, tree.row[tree.moves])
+    sprung = np.union1d(springs.row[springs.stiffness > 0.0], mounted)
     held = np.concatenate((sprung, system.suspension.row)).astype(np.int64)
     free = 6 * len(origin)
 
@@ -84,8 +84,3 @@ def accelerations(system, work):
     found = columns(work.response, ResponseOffset.LINEAR, ResponseOffset.SIZE)
     free = found[[system.tree.row[0], *system.tree.elastic.child]]
     return free[:, :3] + system.tree.gravity, free[:, 3:6], found[:, ResponseOffset.HINGE]
-
-
-def _movable(tree, rows):
-    """Return which bodies (by row) have a hinge with a coordinate, (n,) bool."""
-    return np.isin(rows, tree.row[tree.moves])

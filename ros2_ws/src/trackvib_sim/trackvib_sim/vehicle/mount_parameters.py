@@ -8,9 +8,6 @@ from pydantic import Field, model_validator
 from .quantities import choice, scalar, vector
 from .sections import Angles, Gain, Mass, Name, Place, Range, Section, increasing
 
-MOST_COILS = 16
-MOST_MOUNTS = 32
-
 
 class MrMountParameters(Section):
     """Magnetorheological mounts: measured fits, their valid range, the other axes as ratios to the vertical one."""

@@ -4,7 +4,7 @@ from mr_mount_controller.mounting import Kind, Mount, Mounting
 
 from .body_tree import bodies_on_hinges
 from .mounts import mounts_in_order
-from .parameters import CHASSIS, POWERTRAIN
+from .parameters import POWERTRAIN
 from .sensors import sensors_of
 
 _KINDS = {"mr": Kind.MR, "rubber": Kind.RUBBER}
@@ -13,12 +13,12 @@ _KINDS = {"mr": Kind.MR, "rubber": Kind.RUBBER}
 def mounting_of(vehicle):
     """Return the `Mounting` of a vehicle, mounts in the order of the simulation's sample."""
     bodies = bodies_on_hinges(vehicle)
-    chassis = next(sensor.place for sensor in sensors_of(vehicle) if sensor.name == CHASSIS)
+    chassis, *_ = sensors_of(vehicle)
     mounts = [
         Mount(
             name,
             _KINDS[vehicle.mount_types[mount.type].kind],
-            tuple(a + b - c for a, b, c in zip(bodies[mount.body].place, mount.place, chassis, strict=True)),
+            tuple(a + b - c for a, b, c in zip(bodies[mount.body].place, mount.place, chassis.place, strict=True)),
         )
         for name, mount in mounts_in_order(vehicle)
     ]

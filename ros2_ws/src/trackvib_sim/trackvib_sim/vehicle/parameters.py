@@ -2,10 +2,11 @@
 
 from typing import Annotated, Literal
 
+from mr_mount_controller.mounting import MOST_COILS, MOST_MOUNTS
 from pydantic import Field, model_validator
 
 from .body_parameters import HULL, AnyBodyParameters
-from .mount_parameters import MOST_COILS, MOST_MOUNTS, AnyMountKind, CoilParameters, MountParameters
+from .mount_parameters import AnyMountKind, CoilParameters, MountParameters
 from .quantities import scalar, vector, vectors
 from .running_gear_parameters import (
     EndWheelsParameters,
@@ -18,6 +19,7 @@ from .running_gear_parameters import (
     TeethParameters,
     TensionersParameters,
     TracksParameters,
+    check_stations,
 )
 from .sections import Angles, Gain, Name, Place, Range, RigidBodyParameters, Section, increasing
 from .upgrade import FORMAT, upgraded
@@ -156,11 +158,7 @@ class Vehicle(Section):
     def _running_gear_fits_together(self):
         arms, shocks = self.swing_arms, self.shock_absorbers
         for name, values in shocks:
-            if len(values) not in (1, arms.stations):
-                raise ValueError(
-                    f"shock_absorbers.{name} has {len(values)} values, must have one, or one for each of "
-                    f"{arms.stations} stations"
-                )
+            check_stations(f"shock_absorbers.{name}", values, arms.stations)
         if (self.carrier_rollers is None) != (self.roller_rims is None):
             raise ValueError("carrier_rollers and roller_rims: must both be there, or neither of them")
         rear, front = sorted((self.sprockets.x, self.idlers.x))

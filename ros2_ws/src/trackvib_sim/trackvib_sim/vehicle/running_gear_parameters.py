@@ -64,7 +64,7 @@ class SwingArmsParameters(RigidBodyParameters):
                 raise ValueError(f"{name} is {x}, must be {self.stations} places, each behind the last")
         for name, values in self:
             if isinstance(values, list) and name not in ("centre", "inertia", "products", "wheel_x", "right_wheel_x"):
-                _check_stations(name, values, self.stations)
+                check_stations(name, values, self.stations)
         return self
 
     @model_validator(mode="after")
@@ -200,6 +200,7 @@ def at_stations(values, stations):
     return np.broadcast_to(np.array(values), stations)
 
 
-def _check_stations(name, values, stations):
+def check_stations(name, values, stations):
+    """Raise `ValueError` unless a quantity by station has one value, or one for each."""
     if len(values) not in (1, stations):
         raise ValueError(f"{name} has {len(values)} values, must have one, or one for each of {stations} stations")

@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...road.feeder import RoadFeeder
+from ...simulation.open_loop import CHUNK, run_open_loop
 from ...simulation.run_in import CannotRoll
 from ...simulation.settings import Rates, RunSettings
-from ...simulation.simulation import CHASSIS, HORIZON, RunFailed, Simulation
+from ...simulation.simulation import CHASSIS, RunFailed, Simulation
 from ...vehicle.system import Operation
 from ..case import GOOD
 from .measures import ROAD_BORNE, levels, within
@@ -17,7 +17,6 @@ from .variants import VARIANTS
 RATES = Rates(physics=20_000, control=RATE, odometry=100)
 CORRELATION, RESISTANCE = "correlation", "resistance"
 TENSIONERS = ("left tensioner", "right tensioner")
-_CHUNK = 100  # periods between two looks at tensioners and driver
 _STEP = 0.1  # m between samples of the road-borne part
 
 
@@ -73,19 +72,16 @@ def _drive(simulation, road, reference):
 
     Forces are those of both tensioners and of the driver.
     """
-    feeder = RoadFeeder(road, HORIZON)
-    before = round(reference.start / reference.speed * RATE / _CHUNK) * _CHUNK
-    count = before + len(reference.vertical)
-    force, speed = np.zeros((count, len(simulation.sample.specific_force), 3)), np.zeros(count)
-    place, forces = np.zeros(count), []
+    before = round(reference.start / reference.speed * RATE / CHUNK) * CHUNK
     tensioner, state = simulation.system.tracks.tensioner, simulation.state
-    for first in range(0, count, _CHUNK):
-        for start, spacing, heights in feeder.patches(simulation.distance):
-            simulation.road.add(start, spacing, *heights)
-        part = slice(first, first + _CHUNK)
-        at = simulation.distance
-        simulation.advance_many(np.zeros(simulation.mounting.coils), force[part], speed[part])
-        place[part] = np.linspace(at, simulation.distance, len(place[part]), endpoint=False)
+    begun, distances, forces = [0], [simulation.distance], []
+
+    def look(periods):
+        begun.append(periods)
+        distances.append(simulation.distance)
         pushed = tensioner.preload - tensioner.stiffness * state.tracks.tensioner.travel
         forces.append([*np.abs(pushed), state.speed_integral[0]])
-    return force[before:, CHASSIS, 2], place[before:], np.array(forces[before // _CHUNK :])
+
+    run = run_open_loop(simulation, road, before + len(reference.vertical), look)
+    place = np.interp(np.arange(len(run.time)), begun, distances)
+    return run.specific_force[before:, CHASSIS, 2], place[before:], np.array(forces[before // CHUNK :])

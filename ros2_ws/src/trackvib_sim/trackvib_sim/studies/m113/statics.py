@@ -10,12 +10,13 @@ from math import asin, atan2, cos, hypot, pi, radians, sin, sqrt
 import numpy as np
 from scipy.optimize import root
 
-from ...road.iso8608 import SPACING
+from ...simulation.open_loop import run_open_loop
 from ...simulation.settings import RunSettings
 from ...simulation.simulation import Simulation
 from ...vehicle.body_tree import GRAVITY
 from ...vehicle.system import Operation
 from .case import RATES
+from .reference import LEVEL, road_of
 
 WHEEL_X = np.array([[-0.655, -1.322, -1.989, -2.656, -3.322], [-0.740, -1.407, -2.074, -2.740, -3.407]])  # m, assembled
 SIDE_Y = (1.0795, -1.0795)  # m
@@ -32,6 +33,7 @@ RIM, GROUND = (
     8 * 3.09e6,
 )  # N/m^1.5 of contacts after Hertz: eight a wheel, four corners of each of two shoes
 TENSION = (13.0e3, 2.05e3)  # N, half of what was measured at the tensioners
+SETTLING = 2000  # periods in which our vehicle comes to rest
 
 
 def reference_wheel_loads():
@@ -103,10 +105,7 @@ def reference_ride_frequencies():
 def standing_wheel_loads(vehicle):
     """Return what a standing vehicle's wheels put on their arms, (2, stations) N, as its run-in leaves it."""
     simulation = Simulation(vehicle, RunSettings(Operation(0.0, 0.0, False), RATES, 0.0))
-    around = np.zeros((2, round(20.0 / SPACING)))
-    simulation.road.add(-10.0, SPACING, *around)
-    force, speed = np.zeros((2000, len(simulation.sample.specific_force), 3)), np.zeros(2000)
-    simulation.advance_many(np.zeros(simulation.mounting.coils), force, speed)
+    run_open_loop(simulation, road_of(LEVEL), SETTLING)
     bars, arms = simulation.system.suspension, vehicle.swing_arms
     jounce = simulation.state.tree.hinge[bars.row]
     reach = arms.length * np.cos(radians(arms.static_angle) - jounce)
