@@ -6,6 +6,7 @@ on measured accelerations wants a force; the damper is driven so that its own fo
 no and full current by a measured force; here the current is set at which the estimated damping force is the wanted one.
 """
 
+from functools import cache
 from math import exp
 from typing import NamedTuple
 
@@ -37,9 +38,9 @@ class ClippedOptimal(DampingLaw):
     def reset(self):
         """Forget the motion; the coils are taken to be soft."""
         super().reset()
-        model = mount_model(self.soft_current, self.mounting.coils)
-        self._gain = _rounded(regulator_gain(model, self.travel, self.force))[0]
-        self._filter = _rounded(discrete_filter(model, kalman_gain(model), self.period))
+        self._gain, self._filter = _designed(
+            self.soft_current, self.mounting.coils, self.travel, self.force, self.period
+        )
         self._nominal = stiffness(self.soft_current), damping(self.soft_current)
         self._coil_step = 1.0 - exp(-self.period / COIL_LAG)
         self._state = 0.0, 0.0, 0.0, 0.0
@@ -71,6 +72,14 @@ class ClippedOptimal(DampingLaw):
         rate = self._state[3] + (motion.velocity - self._at_sensors)
         c = self._nominal[1]
         return c - self._wanted / len(self._coils) / rate if rate != 0.0 else c
+
+
+@cache
+def _designed(current, coils, travel, force, period):
+    """Return gain and filter; the same for every run on as many coils."""
+    model = mount_model(current, coils)
+    gain = _rounded(regulator_gain(model, travel, force))[0]
+    return gain, _rounded(discrete_filter(model, kalman_gain(model), period))
 
 
 class Weights(NamedTuple):

@@ -19,6 +19,7 @@ from ..vehicle.body_tree import (  # noqa: E402
     arm_name,
     bodies_on_hinges,
     drive_end,
+    end_wheels,
     idler_name,
     roller_name,
     sprocket_name,
@@ -177,9 +178,8 @@ def _names(plot, assembled, hub, corners, labels):
 
 
 def _dimensions(plot, assembled, hub):
-    v, end = assembled.vehicle, drive_end(assembled.vehicle)
-    ends = {end: sprocket_name, -end: idler_name}
-    rear, front = hub[ends[REAR](LEFT)], hub[ends[FRONT](LEFT)]
+    v, ends = assembled.vehicle, end_wheels(assembled.vehicle)
+    rear, front = (hub[name(LEFT)] for name, _ in (ends[REAR], ends[FRONT]))
     wheels = [hub[wheel_name(LEFT, station)][0] for station in reversed(range(v.swing_arms.stations))]
     along = [rear[0], *wheels, front[0]]
     for x in along:

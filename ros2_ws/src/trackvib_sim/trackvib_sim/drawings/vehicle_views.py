@@ -10,7 +10,7 @@ from ..vehicle.body_tree import (
     REAR,
     SIDES,
     arm_name,
-    drive_end,
+    end_wheels,
     idler_name,
     sprocket_name,
     sprung_bodies,
@@ -117,9 +117,8 @@ def from_the_rear(plot, assembled):
     drawing(plot, "From the rear, m")
     v, view = assembled.vehicle, FROM_REAR
     boxes(plot, assembled, view)
-    outside, radius = v.road_wheels.y + 0.6, assembled.sprockets.tip_radius
-    end, end_radius = (sprocket_name, radius) if drive_end(v) == REAR else (idler_name, v.idlers.radius)
-    width = (v.sprockets if drive_end(v) == REAR else v.idlers).width
+    outside, (name_at_end, at_end) = v.road_wheels.y + 0.6, end_wheels(v)[REAR]
+    end_radius = assembled.sprockets.tip_radius if at_end is v.sprockets else at_end.radius
     level_ground(plot, -outside, outside)
     powertrain_hinge(plot, assembled, view)
     sensors(plot, assembled, view)
@@ -127,7 +126,7 @@ def from_the_rear(plot, assembled):
         wheel, pivot = (view @ assembled.hub[name(side, v.swing_arms.stations - 1)] for name in (wheel_name, arm_name))
         box(plot, wheel, (v.road_wheels.width, 2.0 * v.road_wheels.radius))
         bar(plot, wheel, pivot)
-        box(plot, view @ assembled.hub[end(side)], (width, 2.0 * end_radius))
+        box(plot, view @ assembled.hub[name_at_end(side)], (at_end.width, 2.0 * end_radius))
         for x, depth in ((wheel[0], -0.55), (pivot[0], -0.35)):
             extension(plot, (x, -0.2), (x, depth))
     for place in mount_places(assembled, view).values():

@@ -89,6 +89,12 @@ def idler_name(side):
     return f"{SIDE_NAMES[side]}_idler"
 
 
+def end_wheels(vehicle):
+    """Return, by `FRONT` and `REAR`, what names the wheels at that end of the tracks, and their section."""
+    end = drive_end(vehicle)
+    return {end: (sprocket_name, vehicle.sprockets), -end: (idler_name, vehicle.idlers)}
+
+
 def running_gear_kind(name):
     """Return "wheel", "arm", "roller", "sprocket" or "idler" for a body of the running gear, else ""."""
     side, _, rest = name.partition("_")

@@ -14,8 +14,8 @@ from ..numerics.compiled import kernel
 from ..numerics.spatial import load3
 from ..rui.sweeps.articulated import apply_force
 from ..rui.sweeps.kinematics import MotionOffset, motion_vector, point_place, point_velocity
-from .body_tree import FRONT, REAR, SIDES, drive_end, wheel_name
-from .tracks.layout import end_runs, end_wheels, upper_weight
+from .body_tree import FRONT, REAR, SIDES, drive_end, end_wheels, wheel_name
+from .tracks.layout import end_runs, upper_weight
 
 SHOES_UNDER_WHEEL = 2.0
 
@@ -47,7 +47,10 @@ def build_supports(vehicle, rows, travel):
         hull=rows["hull"],
         brake=np.array([(v.sprockets.x, sign * v.sprockets.y, v.sprockets.z) for sign in SIDES.values()]),
         end=np.array(
-            [[(w.x, sign * w.y, w.z) for w in (end_wheels(v)[end] for end in (REAR, FRONT))] for sign in SIDES.values()]
+            [
+                [(w.x, sign * w.y, w.z) for _, w in (end_wheels(v)[end] for end in (REAR, FRONT))]
+                for sign in SIDES.values()
+            ]
         ),
         end_wheel=np.array([(side * stations + stations - 1, side * stations) for side in SIDES]),
         pull=np.stack([end_runs(v, side, travel[side]) for side in SIDES]),

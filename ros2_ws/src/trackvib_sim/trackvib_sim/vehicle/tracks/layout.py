@@ -49,12 +49,6 @@ def _excess(vehicle, side, travel):
     return _walk(vehicle, side, line, 0.0)[-1] - line.arc[-1]
 
 
-def end_wheels(vehicle):
-    """Return the sections of the wheels at the track's ends, sprockets and idlers, by `FRONT` and `REAR`."""
-    end = drive_end(vehicle)
-    return {end: vehicle.sprockets, -end: vehicle.idlers}
-
-
 def idler_load(vehicle, side, travel):
     """Return the force [N] along x with which the pretension of both runs pulls an idler."""
     line = _taut_line(vehicle, side, travel)
