@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 from trackvib_sim.rui.sweeps.articulated import new_cuts
 from trackvib_sim.rui.sweeps.cells import columns
 from trackvib_sim.rui.sweeps.kinematics import MotionOffset
-from trackvib_sim.vehicle.body_tree import GRAVITY
+from trackvib_sim.vehicle.body_tree import GRAVITY, build_body_table
 from trackvib_sim.vehicle.equilibrium import NoEquilibrium, static_equilibrium
 from trackvib_sim.vehicle.mounts import mount_deflection, mount_force
 from trackvib_sim.vehicle.supports import add_supports
@@ -94,11 +94,21 @@ def test_equilibrium_needs_no_rubber_mounts(changed, rows):
     assert angle[0] != 0.0 and abs(angle[0]) > abs(angle[1]) > 0.0
 
 
+@pytest.mark.analytic
+@pytest.mark.parametrize("mass", [50e3, 54e3, 150e3])
+def test_vehicle_on_its_bump_stops_stands(changed, support_loads, mass):
+    """However many stops are in contact, the supports carry the weight."""
+    vehicle = changed("hull", mass=mass)
+    system = standing(vehicle)
+    loads = support_loads(system, static_equilibrium(system, 1.0))
+    weight = sum(body.mass for body in build_body_table(vehicle)) * GRAVITY
+    assert_allclose(loads.force.sum(0), (0.0, 0.0, weight), rtol=0, atol=1e-6 * weight)
+
+
 @pytest.mark.property
 @pytest.mark.parametrize(
     ("section", "items"),
     [
-        ("hull", {"centre": [10.0, 0.0, 1.05]}),  # topples
         ("gun_mount", {"stiffness": 0.0}),  # its gun drops
         ("recoil_part", {"stiffness": 0.0}),  # slides off the sloping gun
     ],
@@ -107,6 +117,14 @@ def test_vehicle_that_cannot_stand_is_refused(changed, section, items):
     """Where something would move, the refusal says by how much and what is accepted."""
     with pytest.raises(NoEquilibrium, match=r"still accelerates by .* accepted is < 1e-08"):
         static_equilibrium(standing(changed(section, **items)), 1.0)
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(("axis", "centre"), [("x", [10.0, 0.0, 1.05]), ("x", [-7.0, 0.0, 1.05]), ("y", [0, 4.0, 1.05])])
+def test_vehicle_that_topples_is_refused(changed, axis, centre):
+    """Where the weight acts beside the wheels, the refusal says where, and where they stand."""
+    with pytest.raises(NoEquilibrium, match=rf"topples: the weight acts at {axis} = .* between the wheels"):
+        static_equilibrium(standing(changed("hull", centre=centre)), 1.0)
 
 
 @pytest.mark.property

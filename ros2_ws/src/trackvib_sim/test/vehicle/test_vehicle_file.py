@@ -60,6 +60,14 @@ def test_texts_that_would_blow_up_are_refused(text, words):
     assert refusal(text) == words
 
 
+@pytest.mark.property
+@pytest.mark.parametrize("name", ["leopard", "no/file.yaml", "x" * 300])
+def test_who_names_no_file_hears_the_known_names(name):
+    """A wrong name of a vehicle is a file that is not there: the names that are known are what helps."""
+    with pytest.raises(VehicleFileError, match="cannot be read.*known by name are tao2025, .*m113"):
+        read_vehicle(name)
+
+
 @pytest.mark.literature
 def test_published_values_are_the_papers(vehicle):
     """The fits, the rated load, the engine's speeds and its displacement are those printed in the paper."""

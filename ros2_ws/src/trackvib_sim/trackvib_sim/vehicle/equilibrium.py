@@ -8,7 +8,7 @@ from ..numerics.compiled import kernel
 from ..rui.sweeps.articulated import open_cuts
 from ..rui.sweeps.cells import columns
 from ..rui.sweeps.elastic import apply_elastic_hinges
-from ..rui.sweeps.kinematics import update_motion
+from ..rui.sweeps.kinematics import MotionOffset, update_motion
 from ..rui.sweeps.riccati import ResponseOffset, solve_accelerations
 from .coil import settle_coils
 from .hinge_springs import add_hinge_springs
@@ -18,6 +18,9 @@ from .suspension import add_suspension
 from .system import new_state, new_work
 
 TOLERANCE = 1e-8  # m/s^2 and rad/s^2 left over
+_LOAD_STEPS = 20  # of gravity
+_NEWTON_STEPS = 12  # of each; where stops come and go, half a dozen are needed
+_DIFFERENCE = 1e-7  # m or rad
 
 
 class NoEquilibrium(ValueError):
@@ -48,7 +51,7 @@ def static_equilibrium(system, current):
     Raises
     ------
     NoEquilibrium
-        The accelerations cannot be brought below `TOLERANCE`.
+        The accelerations cannot be brought below `TOLERANCE`, or the weight acts beside the wheels.
     """
     state, work = new_state(system), new_work(system)
     settle_coils(system.coil, state.coils, current)
@@ -67,16 +70,56 @@ def static_equilibrium(system, current):
         linear, angular, hinges = accelerations(system, work)
         return np.concatenate((np.hstack((linear, angular)).ravel(), hinges[held]))
 
-    found = root(residual, np.zeros(free + len(held)), method="hybr", options={"xtol": 1e-14, "eps": 1e-8})
-    residual(found.x)
-    # all of them: what nothing holds must not move either
-    left_over = max(np.abs(part).max() for part in accelerations(system, work))
-    if not left_over < TOLERANCE:
+    def left_over(unknowns):
+        residual(unknowns)
+        # of all bodies: what nothing holds must not move either
+        return max(np.abs(part).max() for part in accelerations(system, work))
+
+    found = root(residual, np.zeros(free + len(held)), method="hybr", options={"xtol": 1e-14, "eps": 1e-8}).x
+    left = left_over(found)
+    if not left < TOLERANCE:
+        left = min(left, left_over(_in_load_steps(residual, len(found), tree.gravity)))
+    if not left < TOLERANCE:
         raise NoEquilibrium(
-            f"no static equilibrium: the best place found still accelerates by {left_over:.3g} m/s^2 (or rad/s^2), "
+            f"no static equilibrium: the best place found still accelerates by {left:.3g} m/s^2 (or rad/s^2), "
             f"accepted is < {TOLERANCE:g}; check masses and spring rates of the vehicle file"
         )
+    _refuse_toppling(system.supports, columns(work.motion, MotionOffset.ORIGIN, 3))
     return state
+
+
+def _refuse_toppling(supports, places):
+    """The supports' springs would pull as well as push: where the weight acts must lie between the wheels."""
+    hubs = places[supports.wheel]
+    load = supports.vertical[0] * (supports.radius - hubs[:, 2])
+    for axis, at, hub in zip("xy", load @ hubs / load.sum(), hubs.T, strict=False):
+        if not hub.min() <= at <= hub.max():
+            raise NoEquilibrium(
+                f"no static equilibrium, it topples: the weight acts at {axis} = {at:.3f} m, accepted is between the "
+                f"wheels, {hub.min():.3f} to {hub.max():.3f} m; check masses and their centres in the vehicle file"
+            )
+
+
+def _in_load_steps(residual, size, gravity):
+    """Return the best zero of a residual (size,) that Newton's method finds while gravity grows to its value.
+
+    A stop that comes into contact bends the residual. Updated Jacobians, as of Powell's method, do not get past that;
+    new ones do, from a place that is near.
+    """
+    whole, place = gravity.copy(), np.zeros(size)
+    shifts = _DIFFERENCE * np.eye(size)
+    for share in np.arange(1, _LOAD_STEPS + 1) / _LOAD_STEPS:
+        gravity[:] = share * whole
+        for _ in range(_NEWTON_STEPS):
+            left = residual(place)
+            if not np.isfinite(left).all() or np.abs(left).max() < 0.1 * TOLERANCE:
+                break
+            slope = np.array([residual(place + shift) - residual(place - shift) for shift in shifts]).T
+            if not np.isfinite(slope).all():
+                break
+            place = place - np.linalg.lstsq(slope / (2.0 * _DIFFERENCE), left)[0]
+    gravity[:] = whole
+    return place
 
 
 def accelerations(system, work):

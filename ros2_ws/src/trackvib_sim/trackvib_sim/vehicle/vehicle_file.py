@@ -1,7 +1,9 @@
 """Reads a vehicle file, and says in one sentence an item what is wrong with it."""
 
+from os.path import exists
 from pathlib import Path
 
+from ..data import vehicle_names
 from ..yaml_text import YamlTextError, read_text, validated
 from .parameters import Vehicle
 
@@ -53,5 +55,6 @@ def read_vehicle(path: str | Path) -> tuple[Vehicle, str]:
     try:
         text = read_text(path, "vehicle file")
     except YamlTextError as error:
-        raise VehicleFileError(str(error)) from None
+        by_name = "" if exists(path) else f"; vehicles known by name are {', '.join(vehicle_names())}"
+        raise VehicleFileError(f"{error}{by_name}") from None
     return parse_vehicle(text, str(path)), text

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from trackvib_sim.road.store import Road
 from trackvib_sim.simulation.step import Sensors, Status, advance, new_sample
-from trackvib_sim.vehicle.system import new_work
+from trackvib_sim.vehicle.system import new_state, new_work
 
 NO_SENSORS = Sensors(np.zeros(0, int), np.zeros((0, 3)), np.zeros((0, 9)))
 
@@ -25,7 +25,7 @@ def mover():
     """A function of a system that returns `move(state, road, steps)`, which moves a state on with 1 A in the coils."""
 
     def make(system):
-        work, sensors, current = new_work(system), NO_SENSORS, np.ones(2)
+        work, sensors, current = new_work(system), NO_SENSORS, np.ones_like(new_state(system).coils.field)
         sample = new_sample(sensors, system.mounts)
 
         def move(state, road, steps):

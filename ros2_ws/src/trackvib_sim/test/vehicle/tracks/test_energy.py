@@ -5,18 +5,29 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import trapezoid
+from trackvib_sim.data import find_vehicle
 from trackvib_sim.road.iso8608 import SPACING, Iso8608Road
 from trackvib_sim.road.store import Road
 from trackvib_sim.rui.sweeps.tree import to_lanes
 from trackvib_sim.vehicle.energy import EnergyMeter, Part, Source, energy
+from trackvib_sim.vehicle.step_size import recommended_rate
 from trackvib_sim.vehicle.system import Operation, build_system, new_state
+from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
+from ..generated_vehicles import made
 from .momentum import momentum
 
 pytestmark = pytest.mark.property
 
 SEEDS = st.integers(0, 2**32 - 1)
 INTERVAL = 100  # steps: 10 ms
+_GENERATED = {"leading": 2, "turret": False, "mounts": 4, "coils": 2, "seat": True}
+OTHERS = {
+    "m113": lambda: read_vehicle(find_vehicle("m113"))[0],
+    "leopard1": lambda: read_vehicle(find_vehicle("leopard1"))[0],
+    "front drive": lambda: made(stations=5, stagger=0.06, rollers=0, front_drive=True, **_GENERATED),
+    "many stations": lambda: made(stations=9, stagger=-0.085, rollers=3, front_drive=False, **_GENERATED),
+}
 
 
 @pytest.fixture(scope="module")
@@ -75,6 +86,19 @@ def test_drive_work_is_dissipated_or_stored(request, rolling, audited, road_clas
     assert (dissipation.reshape(-1, INTERVAL, len(Part)).sum(1) >= 0.0).all()
     # every part takes part in it, the stiff tensioners and the mounts of a standing engine least
     assert (lost > 0.0).all()
+
+
+@pytest.mark.slow(reason="half a second of drive in single steps")
+@pytest.mark.parametrize("build", OTHERS.values(), ids=OTHERS)
+def test_drive_work_of_any_vehicle_is_dissipated_or_stored(rolling, audited, level_road, build):
+    """To 1 %, wherever the sprockets stand, with or without friction of teeth, rollers, turret, seats and coils."""
+    vehicle = build()
+    system, state = rolling(physics=recommended_rate(vehicle), vehicle=vehicle)
+    dissipation, given, held = audited(system, state, level_road, round(0.5 / system.dt))
+    drive, lost = trapezoid(given[:, Source.DRIVER], dx=system.dt), trapezoid(dissipation, dx=system.dt, axis=0)
+    assert drive > 5e3
+    assert drive == pytest.approx(lost.sum() + held[-1] - held[0], rel=1e-2)
+    assert lost[Part.TEETH] > 0.0
 
 
 def test_engine_feeds_the_standing_vehicle(vehicle, rolling, audited, level_road):
