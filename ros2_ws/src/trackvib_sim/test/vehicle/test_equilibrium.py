@@ -120,7 +120,9 @@ def test_vehicle_that_cannot_stand_is_refused(changed, section, items):
 
 
 @pytest.mark.property
-@pytest.mark.parametrize(("axis", "centre"), [("x", [10.0, 0.0, 1.05]), ("x", [-7.0, 0.0, 1.05]), ("y", [0, 4.0, 1.05])])
+@pytest.mark.parametrize(
+    ("axis", "centre"), [("x", [10.0, 0.0, 1.05]), ("x", [-7.0, 0.0, 1.05]), ("y", [0.0, 4.0, 1.05])]
+)
 def test_vehicle_that_topples_is_refused(changed, axis, centre):
     """Where the weight acts beside the wheels, the refusal says where, and where they stand."""
     with pytest.raises(NoEquilibrium, match=rf"topples: the weight acts at {axis} = .* between the wheels"):
