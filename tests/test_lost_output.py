@@ -167,6 +167,15 @@ def test_what_a_bag_lacks(recorded_run, edited):
     ]
 
 
+def test_a_sensor_that_was_never_heard(recorded_run):
+    """Which sensors there are is what the vehicle in the bag says, not what is in the bag."""
+    recording = read_recording(recorded_run / "bag")
+    sensor = "\nsensors: {cupola: {body: turret, place: {value: [0, 0, 0], unit: m, source: assumed}, divisor: "
+    vehicle = f"{recording.vehicle}{sensor}{{value: 4, unit: '-', source: assumed}}}}}}\n"
+    assert missing(recording._replace(vehicle=vehicle)) == ["800 of 800 cupola/imu (first at t = 0.004 s)"]
+    assert missing(recording._replace(vehicle=None)) == ["vehicle_description"]
+
+
 def _late(data):
     return leading_stamp(data) >= 2_000_000_000
 

@@ -4,6 +4,8 @@ import numpy as np
 from mr_mount_controller.node_base import topics
 
 from ..numerics.units import NANO
+from ..vehicle.sensors import sensors_of
+from ..vehicle.vehicle_file import VehicleFileError, parse_vehicle
 from .stamps import period_of
 
 _ENDS = ("finished", "stopped")  # states in which a simulator speaks its last word
@@ -13,26 +15,24 @@ _HEARD = ("accepted", "late", "duplicate", "early", "not_finite")  # one for eac
 def missing(recording):
     """Return in words what a `bags.recording.Recording` of a run in lock-step lacks, one text for each part.
 
-    Empty if it has every sample, mount state and answer that the simulator counted, the road under them, and the
-    simulator's last word itself.
+    Empty if it has every sample of the vehicle's sensors, mount state and answer that the simulator counted, the road
+    under them, the vehicle, and the simulator's last word itself.
     """
     counts = recording.diagnostics
     if counts.get("state") not in _ENDS:
         return ["the simulator's last word"]
     period = period_of(recording.chassis.stamp)
     stamps = period * np.arange(1, round(float(counts["time"]) * NANO / period) + 1)
-    streams = {
-        topics.CHASSIS_IMU: recording.chassis,
-        topics.POWERTRAIN_IMU: recording.powertrain,
-        topics.MOUNT_STATE: recording.mounts,
-    }
+    try:
+        sensors = sensors_of(parse_vehicle(recording.vehicle or "", topics.VEHICLE_DESCRIPTION))
+    except VehicleFileError:
+        return [topics.VEHICLE_DESCRIPTION]
+    divisors = {topics.imu_topic(sensor.name): sensor.divisor for sensor in sensors} | {topics.MOUNT_STATE: 1}
+    streams = {end: columns.stamp for end, columns in recording.streams.items() if end in divisors}
     lacking = [
-        _samples(end, stamps, np.empty(0, np.int64) if stream is None else stream.stamp)
-        for end, stream in streams.items()
+        _samples(end, stamps[divisor - 1 :: divisor], streams.get(end, np.empty(0, np.int64)))
+        for end, divisor in divisors.items()
     ]
-    for name, sensor in recording.sensors.items():  # each reads every so many periods
-        due = stamps[stamps % period_of(sensor.stamp) == 0] if len(sensor.stamp) > 1 else sensor.stamp
-        lacking.append(_samples(topics.imu_topic(name), due, sensor.stamp))
     return list(filter(None, (*lacking, _answers(recording.answers, stamps, counts), _road(recording))))
 
 
