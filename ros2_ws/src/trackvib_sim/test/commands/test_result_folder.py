@@ -1,6 +1,7 @@
 """The folder for what a command leaves: new, whole or not at all."""
 
 import errno
+from pathlib import Path
 
 import pytest
 from trackvib_sim.commands.result_folder import CommandError, all_or_nothing, whole_or_none
@@ -47,3 +48,18 @@ def test_files_take_their_names_together(tmp_path, old):
             part.write_text("new")
     assert sorted(each.name for each in tmp_path.iterdir()) == ["a.txt", "b.txt"]
     assert files[0].read_text() == "new"
+
+
+def test_no_link_is_followed(tmp_path):
+    """Neither one at the file's own name, which is replaced, nor any that somebody else may have put beside it."""
+    other = tmp_path / "other"
+    other.write_text("old")
+    file, device = tmp_path / "a.txt", Path("/dev/null")
+    for name in ("a.txt", ".a.txt"):
+        (tmp_path / name).symlink_to(other)
+    with whole_or_none(file) as (part,):
+        part.write_text("new")
+    assert file.read_text() == "new" and not file.is_symlink()
+    assert other.read_text() == "old"
+    with whole_or_none(device) as (part,):
+        assert part == device

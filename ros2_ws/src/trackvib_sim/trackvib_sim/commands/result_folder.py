@@ -2,8 +2,9 @@
 
 import os
 import shutil
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 
 class CommandError(RuntimeError):
@@ -40,16 +41,15 @@ def whole_or_none(*files):
     CommandError
         They cannot be written; what was there before is as it was.
     """
+    folder = files[0].parent
     # a device is not replaced
-    new = [file.with_name(f".{file.name}") if file.is_file() or not file.exists() else file for file in files]
-    try:
-        with writing_to(files[0].parent):
-            yield new
-            for part, file in zip(new, files, strict=True):
-                part.replace(file)
-    finally:
-        for part in set(new) - set(files):
-            part.unlink(missing_ok=True)
+    taken = [file for file in files if file.is_file() or not file.exists()]
+    with writing_to(folder), ExitStack() as drafts:
+        # under a name that nobody guesses, for somebody else may have put links there
+        place = Path(drafts.enter_context(TemporaryDirectory(prefix=".new_", dir=folder))) if taken else folder
+        yield [place / file.name if file in taken else file for file in files]
+        for file in taken:
+            (place / file.name).replace(file)
 
 
 @contextmanager

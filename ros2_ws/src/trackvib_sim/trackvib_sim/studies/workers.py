@@ -2,6 +2,7 @@
 
 import asyncio
 import logging
+import os
 import signal
 from contextlib import contextmanager
 from multiprocessing import resource_tracker
@@ -100,6 +101,8 @@ def _local(workers):
 
     Its credentials are made for it alone; its processes get them through pipes.
     """
+    # before anything of ours runs in them, they would look for modules where the user stands (not from Python 3.11 on)
+    os.environ["PYTHONSAFEPATH"] = "1"
     # the tracker would let signals through again when it starts
     resource_tracker.ensure_running()
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
