@@ -21,6 +21,8 @@ from trackvib_sim.bags.raw_messages import RawMessage, raw_records
 from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.nodes.messages import ImuMessage, mount_description
 
+from .conftest import UNHURRIED
+
 pytestmark = [pytest.mark.system, pytest.mark.slow(reason="real processes that are sent what nobody expects")]
 
 MS = 1_000_000  # ns
@@ -246,9 +248,12 @@ def test_controller_takes_no_description_that_makes_no_sense(start_node, observe
 def test_an_answer_of_another_number_is_refused(start_node, observer, tmp_path):
     """The simulator counts it and falls silent; the bag holds it and is read all the same."""
     publisher = observer.node.create_publisher(CoilCurrent, "coil_current", LOOP_WRITER_QOS)
-    start_node("road_excitation"), start_node("controller")
+    start_node("controller")
     recorder = start_node("recorder", bag=tmp_path / "bag")
-    simulator = start_node("simulator", wait_for_recorder=True, answer_timeout=20.0, duration=1.0)
+    simulator = start_node("simulator", wait_for_recorder=True, answer_timeout=UNHURRIED, duration=1.0)
+    # our publisher and the recorder could pass for a controller: the run begins when the real one is there, too
+    observer.wait_for(controllers="2")
+    start_node("road_excitation")
     observer.wait_for(state="running")
     for currents in ([], [1.0], [1.0] * 3, [1.0] * 16):
         publisher.publish(CoilCurrent(current=currents))
