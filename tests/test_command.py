@@ -18,6 +18,7 @@ NOBODY = 65534
 # May read everything, wherever the checkout and its Python lie, and write nothing.
 READ = ["--inh-caps=+dac_read_search", "--ambient-caps=+dac_read_search"]
 AS_NOBODY = ["setpriv", f"--reuid={NOBODY}", f"--regid={NOBODY}", "--clear-groups", *READ]
+SLOW = pytest.mark.slow(reason="does whole verbs, some as another user")
 SHORT_RUN = ["run", "--duration", "3", "--one-process"]
 SHORT_STUDY = ["study", "table1", "--classes", "A", "--speeds", "5", "--seeds", "1"]
 
@@ -81,7 +82,11 @@ def test_stand_in_steps_aside(run, tmp_path, env):
     assert run(STAND_IN, "topic", "list") == (0, "the real one: topic list\n")
 
 
-@pytest.mark.parametrize("verb", [["help"], ["vehicle"], SHORT_RUN, SHORT_STUDY], ids=lambda verb: verb[0])
+@pytest.mark.parametrize(
+    "verb",
+    [["help"], *(pytest.param(verb, marks=SLOW) for verb in (["vehicle"], SHORT_RUN, SHORT_STUDY))],
+    ids=lambda verb: verb[0],
+)
 def test_files_where_the_user_stands_are_not_run(run, tmp_path, verb):
     """A module there with the name of one that is needed is left alone, by the verb and by what it starts."""
     own = ("pickle", "random", "socket") if sys.version_info >= (3, 11) else ()  # of Python's own start of processes
@@ -117,6 +122,7 @@ def of_nobody():
     shutil.rmtree(folder)
 
 
+@SLOW
 @pytest.mark.parametrize("place", ["HOME", "XDG_CACHE_HOME", "TMPDIR"])
 def test_another_user_gets_the_compiled_kernels(run, env, of_nobody, place):
     """They are copied to the one place where he can write; then a run compiles nothing anew."""
