@@ -62,7 +62,6 @@ def finished(folder):
     return {file.name: file.stat().st_mtime_ns for file in (folder / "cases").glob("*.json")}
 
 
-@SLOW
 def test_leaves_table_report_and_picture(table1, tmp_path):
     """From any directory; again with what is there already, no worker is needed and nothing is done anew."""
     run = table1("--classes", "A", "--speeds", "5", "--seeds", "1")
