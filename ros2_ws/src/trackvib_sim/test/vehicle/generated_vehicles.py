@@ -19,7 +19,7 @@ def quantity(value, unit):
 @st.composite
 def vehicles(draw, **given):
     """Draw a `Vehicle`; `given` are values of `made`'s parameters that are not drawn."""
-    stations = draw(st.integers(2, 12))
+    stations = draw(st.integers(3, 9))
     drawn = {
         "stations": stations,
         "stagger": draw(st.sampled_from([0.0, -0.085, 0.06])),
