@@ -67,6 +67,7 @@ def test_a_bag_of_sensors_alone(start_cli, tmp_path, bag):
     assert "nan" not in (tmp_path / "new" / "numbers.csv").read_text()
 
 
+@pytest.mark.slow(reason="two reports")
 def test_a_cut_bag_counts_and_is_named(start_cli, bag):
     """As far as it goes, and with the way to complete it."""
     (file,) = bag.glob("*.mcap")

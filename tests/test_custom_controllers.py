@@ -38,6 +38,7 @@ def my_laws(tmp_path, env):
     env["PYTHONPATH"] = os.pathsep.join([str(tmp_path), env.get("PYTHONPATH", "")])
 
 
+@pytest.mark.slow(reason="a whole loop in real processes")
 def test_ten_lines_of_the_readme(start, start_node, tmp_path):
     """The controller printed in the README closes the loop as it stands there."""
     blocks = re.findall(r"```python\n(.*?)```", README.read_text(), re.DOTALL)

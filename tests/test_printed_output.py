@@ -126,6 +126,7 @@ def test_comparison_sees_what_differs(shown, printed, scatter, same):
     assert alike(shown, printed, scatter) == same
 
 
+@pytest.mark.slow(reason="programs that drive whole vehicles")
 @pytest.mark.parametrize("document", list(programs()))
 def test_python_blocks_run(document, recorded_run, tmp_path):
     """The blocks of a document, one after the other in one program."""

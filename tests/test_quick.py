@@ -29,6 +29,7 @@ def quick():
     return [line for line in done.stdout.splitlines() if "::" in line]
 
 
+@pytest.mark.slow(reason="collects every test in a process of its own")
 def test_every_room_has_a_quick_test(quick):
     """Each folder of sources has its folder of tests, and not all of these are slow."""
     sources = (PACKAGE / "trackvib_sim").rglob("*.py")
@@ -39,6 +40,7 @@ def test_every_room_has_a_quick_test(quick):
     assert ROOT / "ros2_ws" / "src" / "mr_mount_controller" / "test" in tested
 
 
+@pytest.mark.slow(reason="the same collection")
 @pytest.mark.parametrize("name", REAL)
 def test_what_is_real_is_done_once(quick, name):
     """With real processes, real DDS and real files."""

@@ -38,6 +38,7 @@ def other(tmp_path):
     return make
 
 
+@pytest.mark.slow(reason="draws and settles a vehicle")
 def test_prints_tables_and_draws(vehicle, tmp_path):
     """Without options the shipped vehicle stands in both tables, and its drawing lies where the user stands."""
     code, output = vehicle()
@@ -66,6 +67,7 @@ def test_takes_a_vehicle_by_its_name(vehicle, tmp_path):
     assert "m113.yaml" in output and "recommended physics" in output
 
 
+@pytest.mark.slow(reason="settles every vehicle")
 def test_lists_vehicles(vehicle, tmp_path):
     """Each that comes with the package has its line; nothing is drawn."""
     code, output = vehicle("--list")

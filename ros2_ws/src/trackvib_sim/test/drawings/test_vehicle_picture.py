@@ -103,6 +103,7 @@ def test_centre_of_mass_is_in_the_middle_plane(assembled):
     assert assembled.centre[1] == pytest.approx(0.0, abs=1e-9)
 
 
+@pytest.mark.slow(reason="draws a whole vehicle")
 @pytest.mark.property
 def test_draws_low_teeth(changed, tmp_path):
     """Low teeth with open flanks, between which no pin of the taut run lies yet, are drawn as well."""
@@ -111,6 +112,7 @@ def test_draws_low_teeth(changed, tmp_path):
     assert picture.read_bytes().startswith(PNG)
 
 
+@pytest.mark.slow(reason="draws a whole vehicle")
 @pytest.mark.property
 def test_draws_what_the_paper_s_vehicle_has_not(tmp_path):
     """Leading arms, staggered sides, no superstructure, no rollers, a seat on a bushing, further sensors."""

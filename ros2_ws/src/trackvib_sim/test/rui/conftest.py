@@ -164,7 +164,7 @@ def _random_state(random, table):
 
 
 def _pinocchio(bodies, state, loads, gravity=GRAVITY):
-    model, joints = pinocchio_model(bodies, gravity)
+    model, joints, _ = pinocchio_model(bodies, gravity)
     data, n, parents = model.createData(), len(bodies), parent_rows(bodies)
     q, v, tau = pin.neutral(model), np.zeros(model.nv), np.zeros(model.nv)
     attitude = state.attitude[0] / np.linalg.norm(state.attitude[0])

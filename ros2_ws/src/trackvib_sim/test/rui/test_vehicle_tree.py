@@ -31,6 +31,7 @@ def assert_same(found, reference, tolerance, seed):
         assert error < tolerance, (part, seed)
 
 
+@pytest.mark.slow(reason="hundreds of states in plain matrices")
 @pytest.mark.cross_engine
 def test_vehicle_against_pinocchio(table, random_state, random_loads, pinocchio, form):
     """100 random states of the vehicle, torques and external wrenches on all: accelerations (ABA), wrenches (RNEA)."""

@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from trackvib_sim.analysis.vibration import rms
+from trackvib_sim.data import find_vehicle
 from trackvib_sim.studies.case import PROBES, RATES, Case, drive, prepare, probes, record, settling
+from trackvib_sim.vehicle.step_size import recommended_rate
+from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
 pytestmark = pytest.mark.property
 
@@ -31,6 +34,16 @@ def test_a_drive_gives_the_levels_of_its_settled_part(vehicle, result):
         assert min(level) > 0.1
     assert recorded.time[0] == pytest.approx(settling(20.0) + 1e-3)
     assert result.mean_speed == recorded.speed.mean() == pytest.approx(20.0, rel=0.01)
+
+
+@pytest.mark.parametrize("name", ["tao2025", "m113"])
+def test_steps_are_as_short_as_the_contacts_need(name):
+    """Stiffer contacts of another vehicle get more steps in a control period; what is measured stays at its rate."""
+    other, _ = read_vehicle(find_vehicle(name))
+    simulation, _ = prepare(other, CASE)
+    rates = simulation.settings.rates
+    assert rates.physics == {"tao2025": RATES.physics, "m113": recommended_rate(other)}[name]
+    assert rates.physics >= recommended_rate(other) and rates.control == RATES.control
 
 
 def test_rigid_baseline_is_the_hull_at_the_powertrains_sensor(vehicle, result):

@@ -8,6 +8,7 @@ from trackvib_sim.vehicle.parameters import Vehicle
 from trackvib_sim.vehicle.tracks.layout import room_for_links
 
 SPACING = 0.85  # m between road wheels
+SHORTEST = 1.7  # m between the outermost ones: on less these 42 t topple
 RADIUS = 0.375  # m of the wheels
 
 
@@ -16,10 +17,29 @@ def quantity(value, unit):
     return {"value": value, "unit": unit, "source": "assumed"}
 
 
+_CABIN = {
+    "mass": quantity(900.0, "kg"),
+    "centre": quantity([0.0, 0.0, 0.3], "m"),
+    "inertia": quantity([180.0, 190.0, 140.0], "kg m^2"),
+    "products": quantity([0.0, 0.0, 0.0], "kg m^2"),
+    "place": quantity([0.6, 0.4, 0.7], "m"),
+}
+CABINS = {
+    "elastic": {
+        "stiffness": quantity([4e6, 4e6, 4e5], "N/m"),
+        "damping": quantity([1e4, 1e4, 1e4], "N s/m"),
+        "turning_stiffness": quantity([2e5, 2e5, 2e5], "N m/rad"),
+        "turning_damping": quantity([500.0, 500.0, 500.0], "N m s/rad"),
+    },
+    "free": {},
+    "fixed": {},
+}  # hinge: what belongs to it
+
+
 @st.composite
 def vehicles(draw, **given):
     """Draw a `Vehicle`; `given` are values of `made`'s parameters that are not drawn."""
-    stations = draw(st.integers(3, 9))
+    stations = draw(st.integers(2, 12))
     drawn = {
         "stations": stations,
         "stagger": draw(st.sampled_from([0.0, -0.085, 0.06])),
@@ -29,28 +49,37 @@ def vehicles(draw, **given):
         "turret": draw(st.booleans()),
         "mounts": draw(st.integers(3, 8)),
         "coils": draw(st.integers(0, 3)),
-        "seat": draw(st.booleans()),
+        "cabin": draw(st.sampled_from([None, *CABINS])),
     }
     return made(**(drawn | given))
 
 
-def made(stations, stagger, leading, rollers, front_drive, turret, mounts, coils, seat):
-    """Return the `Vehicle`: its first `leading` stations have leading arms, its powertrain is free on its mounts."""
+def made(stations, stagger, leading, rollers, front_drive, turret, mounts, coils, cabin):
+    """Return the `Vehicle`: its first `leading` stations have leading arms, its powertrain is free on its mounts.
+
+    `cabin` is the hinge of a driver's cabin, or None for a vehicle without one.
+    """
     content = yaml.safe_load(find_vehicle().read_text(encoding="utf-8"))
     if not turret:
         del content["bodies"]
     _stations(content, stations, stagger, leading)
     _ends(content, stations, rollers, front_drive)
     _powertrain(content, mounts, coils)
-    if seat:
-        content.setdefault("bodies", {})["seat"] = _seat()
-        content["sensors"] = {"driver": {"body": "seat", "place": quantity([0.0, 0.0, 0.1], "m")}}
+    if cabin:
+        content.setdefault("bodies", {})["cabin"] = _CABIN | {"hinge": cabin} | CABINS[cabin]
+        content["sensors"] = {"driver": {"body": "cabin", "place": quantity([0.0, 0.0, 0.1], "m")}}
+    if cabin == "free":
+        content["mounts"] |= _cabin_mounts()
     return _with_links(content)
+
+
+def _half_base(stations):
+    return 0.5 * max(SHORTEST, SPACING * (stations - 1))
 
 
 def _stations(content, stations, stagger, leading):
     arms = content["swing_arms"]
-    x = SPACING * (0.5 * (stations - 1) - np.arange(stations))
+    x = _half_base(stations) * np.linspace(1.0, -1.0, stations)
     arms["wheel_x"] = quantity((x - 0.5 * stagger).tolist(), "m")
     arms["right_wheel_x"] = quantity((x + 0.5 * stagger).tolist(), "m")
     arms["direction"] = quantity(["leading"] * leading + ["trailing"] * (stations - leading), "-")
@@ -61,7 +90,7 @@ def _stations(content, stations, stagger, leading):
 
 
 def _ends(content, stations, rollers, front_drive):
-    outside = 0.5 * SPACING * (stations - 1) + 0.9
+    outside = _half_base(stations) + 0.9
     drive = 1.0 if front_drive else -1.0
     content["sprockets"]["x"], content["idlers"]["x"] = quantity(drive * outside, "m"), quantity(-drive * outside, "m")
     if rollers:
@@ -93,18 +122,13 @@ def _powertrain(content, mounts, coils):
     }
 
 
-def _seat():
+def _cabin_mounts():
+    """One MR mount and three of rubber."""
+    places = {"cabin_1": (0.4, 0.4, -0.3), "cabin_2": (0.4, -0.4, -0.3), "cabin_3": (-0.4, 0.4, -0.3)}
+    places["cabin_4"] = (-0.4, -0.4, -0.3)
     return {
-        "hinge": "elastic",
-        "mass": quantity(90.0, "kg"),
-        "centre": quantity([0.0, 0.0, 0.3], "m"),
-        "inertia": quantity([8.0, 9.0, 4.0], "kg m^2"),
-        "products": quantity([0.0, 0.0, 0.0], "kg m^2"),
-        "place": quantity([0.6, 0.4, 0.7], "m"),
-        "stiffness": quantity([4e5, 4e5, 4e4], "N/m"),
-        "damping": quantity([1e3, 1e3, 1e3], "N s/m"),
-        "turning_stiffness": quantity([2e4, 2e4, 2e4], "N m/rad"),
-        "turning_damping": quantity([50.0, 50.0, 50.0], "N m s/rad"),
+        name: {"type": "mr" if name == "cabin_2" else "rubber", "body": "cabin", "place": quantity(list(place), "m")}
+        for name, place in places.items()
     }
 
 

@@ -31,8 +31,12 @@ def _ends_in_one_line(out):
         sys.exit(INTERRUPTED)
 
 
-_SCHEDULER = click.option("--scheduler", default=None, metavar="ADDRESS",
-                          help="Dask scheduler whose workers do it.  [default: all cores of this machine]")  # fmt: skip
+_SCHEDULER = click.option(
+    "--scheduler",
+    default=None,
+    metavar="ADDRESS",
+    help="Dask scheduler whose workers do the runs.  [default: all cores of this machine]",
+)
 
 
 def _out(default, words="Folder of the study; finished runs in it are not done again."):
@@ -76,19 +80,15 @@ def table1(classes, speeds, seeds, vehicle, scheduler, out):
 
 
 @study.command()
-@click.option(
-    "--scheduler",
-    default=None,
-    metavar="ADDRESS",
-    help="Dask scheduler whose workers do the runs.  [default: all cores of this machine]",
-)
+@vehicle_option
+@_SCHEDULER
 @_out("figures", "Folder of the figures; finished runs in it are not done again.")
-def figures(scheduler, out):
+def figures(vehicle, scheduler, out):
     """The paper's other figures as pictures, and a second solver beside ours."""
     with _ends_in_one_line(out):
         from ..studies.paper.figures import run_figures  # imported late, as above
 
-        run_figures(out, scheduler)
+        run_figures(vehicle, scheduler, out)
 
 
 @study.command()
@@ -139,12 +139,7 @@ def controllers(laws, scenarios, seeds, vehicle, scheduler, out):
     help="Which parameters, bounds and effort.  [default: the plan that comes with the package]",
 )
 @vehicle_option
-@click.option(
-    "--scheduler",
-    default=None,
-    metavar="ADDRESS",
-    help="Dask scheduler whose workers do the runs.  [default: all cores of this machine]",
-)
+@_SCHEDULER
 @_out("calibration", "Folder of the study; a search in it goes on.")
 def calibrate(generations, plan, vehicle, scheduler, out):
     """Fit uncertain parameters of the vehicle to the rows of the paper's Table 1 that are given."""
@@ -158,7 +153,7 @@ def calibrate(generations, plan, vehicle, scheduler, out):
 @click.option(
     "--phases",
     type=click.IntRange(1, 100),
-    default=4,
+    default=2,
     show_default=True,
     help="Runs a case, each with its own phase between the two tracks.",
 )

@@ -1,6 +1,6 @@
 """One case of a study: the whole vehicle over one road under constant current, as [Tao2025] drives it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -13,6 +13,7 @@ from ..simulation.run_in import CannotRoll
 from ..simulation.settings import Rates, RunSettings
 from ..simulation.simulation import Probe, RunFailed, Simulation
 from ..vehicle.sensors import sensors_of
+from ..vehicle.step_size import recommended_rate
 from ..vehicle.system import Operation
 
 # [Tao2025]: the engine at its maximum; its second order, 70 Hz, moves the mounts by 0.2 mm
@@ -70,6 +71,11 @@ def probes(vehicle):
     )
 
 
+def rates_for(vehicle):
+    """Return `RATES` with as many physics steps as the vehicle's contacts need."""
+    return replace(RATES, physics=max(RATES.physics, recommended_rate(vehicle)))
+
+
 def settling(speed):
     """Return how long a drive at a speed [m/s] settles before it is measured [s]."""
     return settling_time(speed, LEVEL_UNTIL + FADE)
@@ -81,7 +87,7 @@ def prepare(vehicle, case, kind=Simulation):
     `kind` is `Simulation` or a subclass of it.
     """
     operation = Operation(case.speed, ENGINE_SPEED, IMPOSED_DISPLACEMENT, case.track_phase)
-    simulation = kind(vehicle, RunSettings(operation, RATES, case.current), probes(vehicle))
+    simulation = kind(vehicle, RunSettings(operation, rates_for(vehicle), case.current), probes(vehicle))
     return simulation, Iso8608Road(case.road_class, case.seed, LEVEL_UNTIL, FADE)
 
 

@@ -13,7 +13,10 @@ from trackvib_sim.simulation.simulation import Probe, Simulation
 from trackvib_sim.simulation.step import add_forces
 from trackvib_sim.studies.paper.pinocchio_tree import PinocchioTree, relative_difference
 from trackvib_sim.studies.paper.second_solver import PinocchioSimulation, added_loads, put_back, solved
+from trackvib_sim.vehicle.body_tree import build_body_table
 from trackvib_sim.vehicle.system import Operation, new_work
+
+from ...vehicle.generated_vehicles import made
 
 pytestmark = pytest.mark.cross_engine
 
@@ -64,6 +67,23 @@ def test_same_accelerations_in_any_state(table, random_state, random_loads, seed
     state, loads = random_state(seed), random_loads(seed)
     theirs = PinocchioTree(table, GRAVITY).solve(state, loads)
     assert relative_difference(accelerations(table, state, loads, GRAVITY)[:3], theirs) < ENGINES
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("hinge", ["elastic", "free", "fixed"])
+def test_same_accelerations_of_bodies_on_any_hinge(rough, hinge, seed):
+    """A cabin on a bushing, on mounts or one with the hull, its forces taken from the cuts of a rolling vehicle."""
+    vehicle = made(5, 0.0, 2, 1, False, True, 4, 2, hinge)
+    moving = Simulation(vehicle, RunSettings(Operation(5.0, 1650.0, True), Rates(), 1.0))
+    moving.road.add(-SPACING, SPACING, *rough.heights(0, 400))
+    for _ in range(20 + seed):
+        moving.advance(np.ones(len(moving.state.coils.field)))
+    work, tree = new_work(moving.system), moving.system.tree
+    add_forces(moving.system, moving.state, moving.road.around(-9.0, 15.0), work)
+    state, loads = to_table(tree, moving.state.tree), added_loads(tree, work)
+    solve_accelerations(tree, work.motion, work.cuts, work.response)
+    theirs = PinocchioTree(build_body_table(vehicle), GRAVITY).solve(state, loads)
+    assert relative_difference(solved(tree, work), theirs) < ENGINES
 
 
 def test_same_accelerations_along_a_run(table, moments):

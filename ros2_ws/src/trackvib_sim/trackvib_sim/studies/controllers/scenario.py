@@ -19,7 +19,7 @@ from ...simulation.settings import RunSettings
 from ...simulation.simulation import CHASSIS, POWERTRAIN, RunFailed, Simulation
 from ...vehicle.engine import RunUp
 from ...vehicle.system import Operation
-from ..case import GOOD, RATES
+from ..case import GOOD, RATES, rates_for
 
 PASSIVE, PASSIVE_CURRENT = "passive", 1.0  # A; the coils of every run carry it before the law's first answer
 DRIVING, IDLE, HIGHEST = 1650.0, 450.0, 2100.0  # r/min
@@ -105,7 +105,7 @@ def control(vehicle, case):
     values = {"current": case.current} if case.law == PASSIVE else {}
     settled, measured = (round(time * RATES.control) for time in (scenario.settling, scenario.measuring))
     try:
-        simulation = Simulation(vehicle, RunSettings(operation, RATES, case.current))
+        simulation = Simulation(vehicle, RunSettings(operation, rates_for(vehicle), case.current))
         law = find_law(case.law)(period, **values)
         record = run_closed_loop(simulation, scenario.road(case.seed), law, settled + measured)
     except (CannotRoll, RunFailed) as error:

@@ -27,8 +27,13 @@ SHOWN = Case("E", 10.0, SEED, TRACK_PHASE)  # whose histories and spectra are dr
 ROAD_SPEED = 20.0  # m/s at which the road is drawn
 
 
-def run_figures(out, scheduler):
-    """Draw all figures into the folder `out`; runs are done on the Dask cluster at `scheduler`, or if None here.
+def run_figures(vehicle, scheduler, out):
+    """Draw all figures into the folder `out`.
+
+    Parameters
+    ----------
+    vehicle, scheduler, out
+        As `table1.run_table1` takes them.
 
     Raises
     ------
@@ -37,7 +42,7 @@ def run_figures(out, scheduler):
     ValueError
         The case that is drawn has left the valid range.
     """
-    vehicle, text = read_vehicle(find_vehicle())
+    vehicle, text = read_vehicle(find_vehicle(vehicle))
     folder, console = Path(out), Terminal()
     store = CaseStore(folder / "cases", text)
     cases = [Case(road_class, speed, SEED, TRACK_PHASE) for road_class in CLASSES for speed in SPEEDS]

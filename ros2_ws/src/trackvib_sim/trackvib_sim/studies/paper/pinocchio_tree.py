@@ -6,6 +6,9 @@ import numpy as np
 import pinocchio as pin
 
 from ...rui.reference.placement import parent_rows
+from ...rui.state import free_bodies
+
+_JOINTS = {"revolute": pin.JointModelRevoluteUnaligned, "prismatic": pin.JointModelPrismaticUnaligned}
 
 
 class BodyAccelerations(NamedTuple):
@@ -23,65 +26,81 @@ def relative_difference(found, reference):
 
 
 class PinocchioTree:
-    """A table of bodies (revolute and prismatic hinges, one free root) in Pinocchio: articulated-body algorithm."""
+    """A table of bodies in Pinocchio: articulated-body algorithm. What an elastic hinge does is among the loads."""
 
     def __init__(self, bodies, gravity):
-        self._model, self._joints = pinocchio_model(bodies, gravity)
+        self._model, self._joints, self._within = pinocchio_model(bodies, gravity)
         self._data = self._model.createData()
-        hinges = [self._model.joints[joint] for joint in self._joints[1:]]
-        self._q_of, self._v_of = [hinge.idx_q for hinge in hinges], [hinge.idx_v for hinge in hinges]
+        self._free = [self._model.joints[self._joints[row]] for row in free_bodies(bodies)]
+        moving = {row: self._model.joints[self._joints[row]] for row in _moving(bodies)}
+        self._rows = list(moving)
+        self._q_of, self._v_of = [joint.idx_q for joint in moving.values()], [joint.idx_v for joint in moving.values()]
+        self._frames = [self._model.getFrameId(body.name, pin.FrameType.BODY) for body in bodies]
         self._q, self._v, self._torque = pin.neutral(self._model), np.zeros(self._model.nv), np.zeros(self._model.nv)
-        self._external = pin.StdVec_Force()
-        for _ in range(self._model.njoints):
-            self._external.append(pin.Force.Zero())
 
     def solve(self, state, loads):
         """Return the `BodyAccelerations` in a state under loads (`rui.state`), all in the order of the table."""
         model, data, q, v, torque = self._model, self._data, self._q, self._v, self._torque
-        w, *imaginary = state.attitude[0]
-        to_local = pin.Quaternion(w, *imaginary).matrix().T
-        q[:7] = *state.position[0], *imaginary, w
-        v[:6] = *(to_local @ state.velocity[0]), *(to_local @ state.angular_velocity[0])
-        q[self._q_of], v[self._v_of], torque[self._v_of] = state.hinge[1:], state.hinge_rate[1:], loads.torque[1:]
-        pin.forwardKinematics(model, data, q, v)
-        to_global = np.array([data.oMi[joint].rotation for joint in self._joints])
-        wrenches = np.stack((loads.force, loads.moment), axis=1) @ to_global
-        for joint, wrench in zip(self._joints, wrenches.reshape(-1, 6), strict=True):
-            self._external[joint] = pin.Force(wrench)
-        a = pin.aba(model, data, q, v, torque, self._external).copy()
+        for k, joint in enumerate(self._free):
+            w, *imaginary = state.attitude[k]
+            to_local = pin.Quaternion(w, *imaginary).matrix().T
+            q[joint.idx_q : joint.idx_q + 7] = *state.position[k], *imaginary, w
+            speeds = to_local @ np.stack((state.velocity[k], state.angular_velocity[k]), axis=1)
+            v[joint.idx_v : joint.idx_v + 6] = speeds.T.ravel()
+        q[self._q_of], v[self._v_of] = state.hinge[self._rows], state.hinge_rate[self._rows]
+        torque[self._v_of] = loads.torque[self._rows]
+        pin.framesForwardKinematics(model, data, q)
+        external = [pin.Force.Zero() for _ in range(model.njoints)]
+        for row, (joint, place) in enumerate(zip(self._joints, self._within, strict=True)):
+            to_local = data.oMf[self._frames[row]].rotation.T
+            external[joint] += place.act(pin.Force(to_local @ loads.force[row], to_local @ loads.moment[row]))
+        a = pin.aba(model, data, q, v, torque, external).copy()
         pin.forwardKinematics(model, data, q, v, a)
         axes = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
-        linear = [pin.getClassicalAcceleration(model, data, joint, axes).linear for joint in self._joints]
-        angular = [pin.getAcceleration(model, data, joint, axes).angular for joint in self._joints]
-        return BodyAccelerations(np.array(linear), np.array(angular), np.array([0.0, *a[self._v_of]]))
+        linear = [pin.getFrameClassicalAcceleration(model, data, frame, axes).linear for frame in self._frames]
+        angular = [pin.getFrameAcceleration(model, data, frame, axes).angular for frame in self._frames]
+        hinge = np.zeros(len(self._joints))
+        hinge[self._rows] = a[self._v_of]
+        return BodyAccelerations(np.array(linear), np.array(angular), hinge)
+
+
+def _moving(bodies):
+    return [row for row, body in enumerate(bodies) if body.hinge is not None and body.hinge.kind in _JOINTS]
 
 
 def pinocchio_model(bodies, gravity):
-    """Return the model and the joint of every body; Pinocchio wants branches one after the other, depth first.
+    """Return the model, and of every body its joint and its place in that; branches one after the other, depth first.
+
+    A body on an elastic hinge is as free as the root; one on a locked hinge is part of its parent's joint.
 
     Raises
     ------
     ValueError
-        A hinge is neither a free revolute nor a free prismatic hinge.
+        A hinge has a prescribed motion.
     """
-    model, joints, parents = pin.Model(), [0] * len(bodies), parent_rows(bodies)
+    model, parents = pin.Model(), parent_rows(bodies)
+    joints, within = [0] * len(bodies), [pin.SE3.Identity() for _ in bodies]
     model.gravity.linear = np.asarray(gravity, dtype=float)
-    kinds = {"revolute": pin.JointModelRevoluteUnaligned, "prismatic": pin.JointModelPrismaticUnaligned}
 
     def add(row):
-        body = bodies[row]
-        parent, joint, place = 0, pin.JointModelFreeFlyer(), np.zeros(3)
-        if body.hinge is not None:
-            if body.hinge.kind not in kinds or body.hinge.prescribed:
-                raise ValueError(f"hinge {body.hinge.number} is neither a free revolute nor a free prismatic hinge")
-            axis = np.asarray(body.hinge.axis, dtype=float)
-            parent, joint = joints[parents[row]], kinds[body.hinge.kind](axis / np.linalg.norm(axis))
-            place = np.asarray(body.hinge.place, dtype=float)
-        joints[row] = model.addJoint(parent, joint, pin.SE3(np.eye(3), place), body.name)
+        body, hinge, parent = bodies[row], bodies[row].hinge, parents[row]
+        if hinge is None or hinge.kind == "elastic":
+            joints[row] = model.addJoint(0, pin.JointModelFreeFlyer(), pin.SE3.Identity(), body.name)
+        elif hinge.prescribed:
+            raise ValueError(f"hinge {hinge.number} has a prescribed motion")
+        else:
+            place = within[parent] * pin.SE3(np.eye(3), np.asarray(hinge.place, dtype=float))
+            if hinge.kind in _JOINTS:
+                axis = np.asarray(hinge.axis, dtype=float)
+                joint = _JOINTS[hinge.kind](axis / np.linalg.norm(axis))
+                joints[row] = model.addJoint(joints[parent], joint, place, body.name)
+            else:
+                joints[row], within[row] = joints[parent], place
         inertia = pin.Inertia(body.mass, np.asarray(body.centre, dtype=float), np.asarray(body.inertia, dtype=float))
-        model.appendBodyToJoint(joints[row], inertia, pin.SE3.Identity())
+        model.appendBodyToJoint(joints[row], inertia, within[row])
+        model.addBodyFrame(body.name, joints[row], within[row], -1)
         for child in np.flatnonzero(np.asarray(parents) == row):
             add(child)
 
     add(0)
-    return model, joints
+    return model, joints, within
