@@ -75,7 +75,8 @@ def test_same_accelerations_of_bodies_on_any_hinge(rough, hinge, seed):
     """A cabin on a bushing, on mounts or one with the hull, its forces taken from the cuts of a rolling vehicle."""
     vehicle = made(5, 0.0, 2, 1, False, True, 4, 2, hinge)
     moving = Simulation(vehicle, RunSettings(Operation(5.0, 1650.0, True), Rates(), 1.0))
-    moving.road.add(-SPACING, SPACING, *rough.heights(0, 400))
+    first = -int(10.0 / SPACING)
+    moving.road.add(first * SPACING, SPACING, *rough.heights(first, int(30.0 / SPACING)))
     for _ in range(20 + seed):
         moving.advance(np.ones(len(moving.state.coils.field)))
     work, tree = new_work(moving.system), moving.system.tree

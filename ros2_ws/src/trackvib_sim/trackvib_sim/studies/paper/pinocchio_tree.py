@@ -98,7 +98,7 @@ def pinocchio_model(bodies, gravity):
                 joints[row], within[row] = joints[parent], place
         inertia = pin.Inertia(body.mass, np.asarray(body.centre, dtype=float), np.asarray(body.inertia, dtype=float))
         model.appendBodyToJoint(joints[row], inertia, within[row])
-        model.addBodyFrame(body.name, joints[row], within[row], -1)
+        model.addFrame(pin.Frame(body.name, joints[row], 0, within[row], pin.FrameType.BODY))
         for child in np.flatnonzero(np.asarray(parents) == row):
             add(child)
 
