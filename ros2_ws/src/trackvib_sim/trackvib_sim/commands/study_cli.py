@@ -153,7 +153,7 @@ def calibrate(generations, plan, vehicle, scheduler, out):
 @click.option(
     "--phases",
     type=click.IntRange(1, 100),
-    default=2,
+    default=4,
     show_default=True,
     help="Runs a case, each with its own phase between the two tracks.",
 )
