@@ -21,6 +21,7 @@ def modes(start_cli):
     return make
 
 
+@pytest.mark.slow(reason="settles a vehicle and draws")
 def test_prints_a_table_and_draws(modes, tmp_path):
     """Frequencies stand in a table in ascending order, up to the limit; the picture is where it was asked for."""
     picture = tmp_path / "pictures" / "shapes.png"

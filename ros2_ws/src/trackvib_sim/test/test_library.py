@@ -71,6 +71,7 @@ def _blocked(script, names):
     return subprocess.run([sys.executable, "-c", block + script], capture_output=True, text=True)
 
 
+@pytest.mark.slow(reason="imports every module in processes of its own")
 def test_only_nodes_import_ros():
     """Every other module of both packages is imported in a process without ROS."""
     modules = _modules(trackvib_sim) + _modules(mr_mount_controller)
@@ -81,6 +82,7 @@ def test_only_nodes_import_ros():
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.slow(reason="imports every module in processes of its own")
 def test_the_list_of_modules_with_ros_is_true():
     """None of them could be imported without."""
     script = (
@@ -96,6 +98,7 @@ def test_the_list_of_modules_with_ros_is_true():
     assert done.stdout == "" and done.returncode == 0, done.stdout + done.stderr
 
 
+@pytest.mark.slow(reason="imports every module in processes of its own")
 def test_the_base_needs_no_extra():
     """Method, vehicle, roads, simulation, reading and measuring bags."""
     names = [name for part in BASE for name in _below(f"trackvib_sim.{part}")]

@@ -148,6 +148,7 @@ def test_accelerations_invert_the_mass_matrix(table, random_state, seed):
     assert_allclose(mass @ inverse, np.eye(46), rtol=0, atol=ROUNDING * np.abs(inverse).max())
 
 
+@pytest.mark.slow(reason="integrates for seconds")
 @pytest.mark.property
 def test_integrated_free_flight_keeps_momentum_and_energy(table, random_state):
     """A fourth-order run of half a second without gravity keeps momentum and energy to the order of the method."""

@@ -45,6 +45,7 @@ def test_planar_vehicle():
     assert max(at) < 1e-6 * min(between)
 
 
+@pytest.mark.slow(reason="the classical forms of a whole vehicle")
 @pytest.mark.property
 def test_illustrative_vehicle():
     """41 bodies, 26 tips, 40 hinges: 26 x 6 + 40 unknowns, singular at all 22 frequencies."""

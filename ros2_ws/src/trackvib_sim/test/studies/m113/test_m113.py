@@ -52,6 +52,7 @@ def test_reference_has_the_levels_that_it_was_handed_over_with(road, speed, high
     assert reference.vertical.mean() == pytest.approx(9.81, abs=0.02)
 
 
+@pytest.mark.slow(reason="a whole drive")
 @pytest.mark.cross_engine
 def test_rough_road_at_ten_metres_a_second_agrees(m113, rough_ten):
     """100-500 Hz within 1.15, its third octaves but 100 and 200 Hz within 1.4; the road's part; tensioners' forces.

@@ -69,15 +69,14 @@ def test_same_accelerations_in_any_state(table, random_state, random_loads, seed
     assert relative_difference(accelerations(table, state, loads, GRAVITY)[:3], theirs) < ENGINES
 
 
-@pytest.mark.parametrize("seed", range(5))
 @pytest.mark.parametrize("hinge", ["elastic", "free", "fixed"])
-def test_same_accelerations_of_bodies_on_any_hinge(rough, hinge, seed):
+def test_same_accelerations_of_bodies_on_any_hinge(rough, hinge):
     """A cabin on a bushing, on mounts or one with the hull, its forces taken from the cuts of a rolling vehicle."""
     vehicle = made(5, 0.0, 2, 1, False, True, 4, 2, hinge)
     moving = Simulation(vehicle, RunSettings(Operation(5.0, 1650.0, True), Rates(), 1.0))
     first = -int(10.0 / SPACING)
     moving.road.add(first * SPACING, SPACING, *rough.heights(first, int(30.0 / SPACING)))
-    for _ in range(20 + seed):
+    for _ in range(20):
         moving.advance(np.ones(len(moving.state.coils.field)))
     work, tree = new_work(moving.system), moving.system.tree
     add_forces(moving.system, moving.state, moving.road.around(-9.0, 15.0), work)

@@ -7,6 +7,7 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.spatial import ConvexHull, QhullError
 
+from ...numerics.compiled import kernel
 from ..body_tree import GRAVITY, SIDE_NAMES, SIDES, build_body_table, drive_end
 from .sprockets import pitch_radius
 
@@ -158,12 +159,30 @@ def _taut_line(vehicle, side, travel):
 
 def _walk(vehicle, side, line, start):
     """Arc lengths (n + 1,) of pins whose straight distance is the pitch."""
-    t = vehicle.tracks
-    arc = np.empty(int(t.links[side]) + 1)
+    arc = np.empty(int(vehicle.tracks.links[side]) + 1)
     arc[0] = start
-    for i in range(len(arc) - 1):
-        here, there = line.at(arc[i]), arc[i] + t.pitch
-        for _ in range(_REFINEMENTS):
-            there += t.pitch - np.hypot(*(line.at(there) - here))
-        arc[i + 1] = there
+    _lay_pins(line.corner, line.arc, vehicle.tracks.pitch, arc)
     return arc
+
+
+@kernel
+def _lay_pins(corner, along, pitch, arc):
+    """Fill all but the first of the arc lengths; `along` are those of the corners."""
+    x, z = _place(corner, along, arc[0])
+    for i in range(len(arc) - 1):
+        there = arc[i] + pitch
+        for _ in range(_REFINEMENTS):
+            next_x, next_z = _place(corner, along, there)
+            there += pitch - np.hypot(next_x - x, next_z - z)
+        x, z = _place(corner, along, there)
+        arc[i + 1] = there
+
+
+@kernel
+def _place(corner, along, arc):
+    """Return the place at an arc length on a closed line."""
+    left = arc % along[-1]
+    k = min(max(np.searchsorted(along, left, side="right") - 1, 0), len(along) - 2)
+    part = (left - along[k]) / (along[k + 1] - along[k])
+    x, z = corner[k]
+    return x + part * (corner[k + 1, 0] - x), z + part * (corner[k + 1, 1] - z)
