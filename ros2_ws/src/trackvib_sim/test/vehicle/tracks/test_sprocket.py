@@ -147,14 +147,13 @@ def test_teeth_are_a_potential(system, toothed, seed):
     first = _polar(distance, -ANGLE - random.choice((-1.0, 1.0)) * way / distance)
     steps, step = 200, random.uniform(-2e-5, 2e-5, 2)
     line = first + np.arange(2 * steps + 1)[:, None] * (0.5 * step)
-    force = np.array(
-        [toothed(wheel, place)[[WheelLoadOffset.FORCE, WheelLoadOffset.FORCE + 2]] for place in line[1::2]]
-    )
-    energy = np.array([toothed(wheel, place)[WheelLoadOffset.STORED] for place in line[::2]])
+    loads = np.array([toothed(wheel, place) for place in line])
+    force = loads[:, [WheelLoadOffset.FORCE, WheelLoadOffset.FORCE + 2]]
+    energy = loads[::2, WheelLoadOffset.STORED]
     below_corner = above < wheel.tip_radius - wheel.corner - wheel.pitch_radius
     assert deep < 1e-3 or not below_corner or energy[0] > 0.0
     # the reaction on the sprocket does the work; where the force turns within a step it is wrong by its own size
-    work, largest = force @ step, np.abs(force).max() * np.linalg.norm(step)
+    work, largest = force[1::2] @ step, np.abs(force).max() * np.linalg.norm(step)
     assert np.abs(np.diff(energy) - work).max() <= 2.0 * largest + 1e-6
     assert abs(energy[-1] - energy[0] - work.sum()) <= 1e-3 * energy.max() + 5.0 * largest + 1e-6
 
