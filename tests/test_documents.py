@@ -46,6 +46,7 @@ def test_every_topic_has_its_row():
     assert sorted(set(names) - set(others)) == sorted(topic.name for topic in topics.TOPICS)
 
 
+@pytest.mark.slow(reason="a whole run")
 @pytest.mark.system
 def test_topics_have_the_types_that_travel(recorded_run):
     """The bag of a run holds every topic of the table, with its type, but the recorder's own words and more sensors."""

@@ -30,6 +30,7 @@ def test_a_recorded_run_comes_out_again(start_cli, recorded_run):
     assert "identical to the last bit: 3200 of /mount_state, 3200 of /chassis/imu, 3200 of /powertrain/imu" in verdict
 
 
+@pytest.mark.slow(reason="a replay for each bit")
 @pytest.mark.parametrize(
     ("topic", "byte", "mask", "words"),
     [

@@ -64,20 +64,20 @@ def finished(folder):
 
 def test_leaves_table_report_and_picture(table1, tmp_path):
     """From any directory; again with what is there already, no worker is needed and nothing is done anew."""
-    run = table1("--classes", "A", "--speeds", "5", "--seeds", "1")
+    run = table1("--classes", "A", "--speeds", "20", "--seeds", "1")
     assert run.wait() == 0, run.output
     assert "error factor over all rows that the paper gives" in run.output
     folder = tmp_path / "table1"
     with (folder / "table1.csv").open(newline="") as file:
         (row,) = csv.DictReader(file)
-    assert (row["road_class"], row["speed_mps"], row["status"]) == ("A", "5", "ok")
+    assert (row["road_class"], row["speed_mps"], row["status"]) == ("A", "20", "ok")
     assert len(row) == 15 and all(float(row[f"chassis_{axis}"]) > 0.1 for axis in "xyz")
     report = (folder / "table1.md").read_text()
-    assert "| A | 5 |" in report and "0.5-500 Hz" in report
+    assert "| A | 20 |" in report and "0.5-500 Hz" in report
     assert (folder / "table1.png").read_bytes().startswith(PNG)
     before = finished(folder)
     assert len(before) == 1
-    again = table1("--classes", "A", "--speeds", "5", "--seeds", "1", "--scheduler", "tcp://127.0.0.1:1")
+    again = table1("--classes", "A", "--speeds", "20", "--seeds", "1", "--scheduler", "tcp://127.0.0.1:1")
     assert again.wait() == 0, again.output
     assert finished(folder) == before
 

@@ -40,6 +40,7 @@ def test_vehicle_against_pinocchio(table, random_state, random_loads, pinocchio,
         assert_same(form(*case), pinocchio(*case), ENGINES, seed)
 
 
+@pytest.mark.slow(reason="many states in plain matrices")
 @pytest.mark.cross_engine
 def test_vehicle_from_the_paper_root_against_pinocchio(from_the_gun, pinocchio, form):
     """The same with the recoil part as root, of which the paper's transfer starts."""

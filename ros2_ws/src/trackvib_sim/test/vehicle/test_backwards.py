@@ -45,6 +45,7 @@ def mirrored(vehicle):
     )
 
 
+@pytest.mark.slow(reason="two whole drives")
 @pytest.mark.property
 def test_mirror_image_driven_backwards_gives_the_same_levels(simulation, level, twin):
     """Vertical and longitudinal levels of the hull on level ground, at 10 m/s and, mirrored, at -10 m/s."""

@@ -79,6 +79,7 @@ def test_wheels_carry_what_statics_of_the_reference_give(m113):
     assert (np.abs(factor - 1.0) < 0.03).sum() >= 6
 
 
+@pytest.mark.slow(reason="a whole drive")
 @pytest.mark.property
 def test_table_has_every_quantity_of_a_case(rough_ten, m113):
     """Levels, correlation and forces, one row each, as text of a CSV file."""
