@@ -8,7 +8,8 @@ from ..rui.sweeps.cells import columns
 from ..rui.sweeps.kinematics import MotionOffset, update_motion
 from ..vehicle.coil import usable_current
 from ..vehicle.equilibrium import static_equilibrium
-from ..vehicle.mounts import mount_deflection, mount_force, mounts_in_order
+from ..vehicle.mount_law import mount_force
+from ..vehicle.mounts import mount_deflection, mounts_in_order
 from ..vehicle.system import Operation, build_system, new_work
 
 
@@ -39,7 +40,7 @@ def standing_loads(vehicle):
     loads = {}
     for index, (name, _) in enumerate(mounts_in_order(vehicle)):
         _, deflection, _ = mount_deflection(system.mounts, motion, index, 0.0, 0.0)
-        force, _ = mount_force(system.mounts, index, current, deflection, (0.0, 0.0, 0.0))
+        force, _ = mount_force(system.mounts, state.fields, index, current, deflection, (0.0, 0.0, 0.0))
         loads[name] = np.array(force)
     wheel = supports.vertical[0] * (supports.radius - height)
     return StandingLoads(wheel.reshape(2, -1), loads, current)

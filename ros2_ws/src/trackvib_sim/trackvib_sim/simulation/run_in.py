@@ -6,6 +6,7 @@ from ..road.store import Road
 from ..vehicle.coil import settle_coils
 from ..vehicle.engine import angle_before
 from ..vehicle.mount_energy import start_mount_energy
+from ..vehicle.mount_law import lay_fields
 from ..vehicle.system import new_state, new_work
 from ..vehicle.tracks.initial import assemble_tracks
 from ..vehicle.tracks.nodes import STRIDE, NodeOffset
@@ -30,6 +31,7 @@ def run_in(vehicle, system, settings):
     """
     state, work = new_state(system), new_work(system)
     settle_coils(system.coil, state.coils, settings.passive_current)
+    lay_fields(system.mounts, state.coils.field, state.fields)
     speed, run_up = settings.operation.speed, settings.operation.run_up
     if run_up:
         state.crank_angle[0] = angle_before(system.engine, DURATION + run_up.begin)

@@ -84,10 +84,17 @@ def add_forces(system, state, road, work):
     add_tracks(system.tracks, state.tracks, state.tree, road, motion, cuts, work.tracks, system.dt)
     displacement, displacement_rate = imposed_displacement(system.engine, state.crank_angle[0])
     apply_elastic_hinges(tree, motion, cuts)
-    add_mounts(system.mounts, motion, cuts, state.coils.field, displacement, displacement_rate)
     update_mount_energy(
-        system.mounts, motion, state.coils.field, displacement, displacement_rate, system.dt, state.mount_energy
+        system.mounts,
+        state.fields,
+        motion,
+        state.coils.field,
+        displacement,
+        displacement_rate,
+        system.dt,
+        state.mount_energy,
     )
+    add_mounts(system.mounts, state.fields, motion, cuts, state.coils.field, displacement, displacement_rate)
     add_engine(system.engine, state.crank_angle[0], motion, cuts)
     add_driver(system.driver, motion, cuts, state.speed_integral, system.dt)
 
@@ -198,4 +205,4 @@ def observe(system, state, motion, sample):
         body_axes(motion, hull, motion_vector(motion, MotionOffset.ANGULAR_VELOCITY, hull)),
     )
     displacement, displacement_rate = imposed_displacement(system.engine, state.crank_angle[0])
-    observe_mounts(system.mounts, motion, state.coils, displacement, displacement_rate, sample.mounts)
+    observe_mounts(system.mounts, state.fields, motion, state.coils, displacement, displacement_rate, sample.mounts)

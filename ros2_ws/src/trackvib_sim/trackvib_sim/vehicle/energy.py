@@ -26,7 +26,8 @@ from ..rui.sweeps.tree import BodyOffset
 from .driver import add_driver
 from .engine import add_engine, imposed_displacement
 from .hinge_springs import add_hinge_springs
-from .mounts import mount_current, mount_deflection, mount_force, mount_stored_energy
+from .mount_law import mount_force, mount_stored_energy
+from .mounts import mount_current, mount_deflection
 from .suspension import add_suspension
 from .system import new_state, new_work
 from .tracks.nodes import STRIDE, NodeOffset
@@ -219,8 +220,8 @@ def _add_mounts(system, state, motion, account):
     for index in range(mounts.body.size):
         current = mount_current(mounts, index, state.coils.field)
         _, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)
-        force, dissipation = mount_force(mounts, index, current, l, l_d)
-        account.stored[Part.MOUNTS] += mount_stored_energy(mounts, index, current, l)
+        force, dissipation = mount_force(mounts, state.fields, index, current, l, l_d)
+        account.stored[Part.MOUNTS] += mount_stored_energy(mounts, state.fields, index, l)
         account.dissipation[Part.MOUNTS] += dissipation
         account.given[Source.ENGINE] += force[2] * mounts.excited[index] * imposed_rate
 

@@ -12,6 +12,7 @@ from ..rui.sweeps.kinematics import MotionOffset, update_motion
 from ..rui.sweeps.riccati import ResponseOffset, solve_accelerations
 from .coil import settle_coils
 from .hinge_springs import add_hinge_springs
+from .mount_law import lay_fields
 from .mounts import add_mounts
 from .supports import add_supports
 from .suspension import add_suspension
@@ -36,7 +37,7 @@ def _static_accelerations(system, state, work):
     update_motion(system.tree, state.tree, work.motion)
     open_cuts(system.tree, work.motion, work.torques, work.cuts)
     apply_elastic_hinges(system.tree, work.motion, work.cuts)
-    add_mounts(system.mounts, work.motion, work.cuts, state.coils.field, 0.0, 0.0)
+    add_mounts(system.mounts, state.fields, work.motion, work.cuts, state.coils.field, 0.0, 0.0)
     add_supports(system.supports, work.motion, work.cuts)
     solve_accelerations(system.tree, work.motion, work.cuts, work.response)
 
@@ -55,6 +56,7 @@ def static_equilibrium(system, current):
     """
     state, work = new_state(system), new_work(system)
     settle_coils(system.coil, state.coils, current)
+    lay_fields(system.mounts, state.coils.field, state.fields)
     springs, tree, origin = system.springs, system.tree, state.tree.position.copy()
     mounted = np.intersect1d(system.mounts.body, tree.row[tree.moves])
     sprung = np.union1d(springs.row[springs.stiffness > 0.0], mounted)

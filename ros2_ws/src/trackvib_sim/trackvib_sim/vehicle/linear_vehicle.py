@@ -10,7 +10,8 @@ from ..rui.sweeps.tree import new_rows, to_table
 from .body_tree import SIDES, build_body_table
 from .equilibrium import static_equilibrium
 from .hinge_springs import add_hinge_springs
-from .mounts import mount_axes, mount_deflection, mount_force
+from .mount_law import mount_axes, mount_force
+from .mounts import mount_deflection
 from .supports import pulls
 from .suspension import add_suspension
 from .system import new_work
@@ -47,19 +48,19 @@ def build_linear_vehicle(vehicle, system, current):
         stiffness=stiffness[row],
         damping=damping[row],
         springs=tuple(_ground(system, bodies, work.motion)),
-        mounts=tuple(_mounts(system, bodies, work.motion, current)),
+        mounts=tuple(_mounts(system, bodies, work.motion, state.fields, current)),
         loads=no_loads(bodies)._replace(torque=torque[row]),
     )
 
 
-def _mounts(system, bodies, motion, current):
+def _mounts(system, bodies, motion, fields, current):
     mounts = system.mounts
     name = {row: body.name for body, row in zip(bodies, system.tree.row.tolist(), strict=True)}
     for index, body in enumerate(mounts.body.tolist()):
         turn = mounts.axes[index].reshape(3, 3)
         k, c = (turn @ np.diag(along) @ turn.T for along in mount_axes(mounts, index, current))
         _, deflection, _ = mount_deflection(mounts, motion, index, 0.0, 0.0)
-        force, _ = mount_force(mounts, index, current, deflection, (0.0, 0.0, 0.0))
+        force, _ = mount_force(mounts, fields, index, current, deflection, (0.0, 0.0, 0.0))
         yield Mount(name[body], mounts.upper[index], k, c, turn @ force)
 
 

@@ -3,8 +3,8 @@
     work on a mount = dissipated + stored + exchanged
 
 A mount takes work from hull, powertrain and the displacement that the engine imposes. Its damping turns work into heat,
-its spring stores it, and where the current changes the stiffness of a deflected spring, energy goes to the magnetic
-field, or comes from there. As in `energy.py`, speeds belong to the middle of the steps and places to their ends. So the
+its springs store it, and where the current changes while the field holds energy, a part goes to the magnetic field and
+is lost (`mount_law`): never less than none. As in `energy.py`, speeds belong to the middle of the steps and places to their ends. So the
 force of a step, as it acted, does its work at the mean of the speeds before and after it, and its damping turns work
 into heat at the same; the spring is looked at, and changes its stiffness, in the middle of the steps. What is then left
 over falls with the step squared.
@@ -16,7 +16,8 @@ import numpy as np
 
 from ..numerics.compiled import kernel
 from ..numerics.spatial import add, dot, load3, scale, store3, subtract
-from .mounts import mount_axes, mount_current, mount_deflection, mount_force, mount_stored_energy
+from .mount_law import mount_axes, mount_force, mount_stored_energy, switch_field
+from .mounts import mount_current, mount_deflection
 
 
 class MountEnergyState(NamedTuple):
@@ -25,11 +26,10 @@ class MountEnergyState(NamedTuple):
     work: np.ndarray  # (m,) done on the mount, J
     dissipated: np.ndarray  # (m,) J
     stored: np.ndarray  # (m,) J
-    exchanged: np.ndarray  # (m,) given to the magnetic field, J
+    exchanged: np.ndarray  # (m,) lost to the magnetic field, J
     force: np.ndarray  # (m, 3) on the powertrain, N
     damping: np.ndarray  # (m, 3) its part against the motion, N
     speed: np.ndarray  # (m, 3) between the ends, without what is imposed, m/s
-    current: np.ndarray  # (m,) that the mount felt, A
     imposed_rate: np.ndarray  # (m,) m/s
     energy: np.ndarray  # (m,) of the spring, J
 
@@ -56,7 +56,7 @@ class MountEnergy(NamedTuple):
 
 def new_mount_energy_state(m):
     """Return an account of m mounts without a step."""
-    return MountEnergyState(*(np.zeros(shape) for shape in (m, m, m, m, (m, 3), (m, 3), (m, 3), m, m, m)))
+    return MountEnergyState(*(np.zeros(shape) for shape in (m, m, m, m, (m, 3), (m, 3), (m, 3), m, m)))
 
 
 def start_mount_energy(account):
@@ -72,25 +72,24 @@ def mount_energy_account(account):
 
 
 @kernel
-def update_mount_energy(mounts, motion, currents, imposed, imposed_rate, dt, account):
-    """Book the last step [s], given what `add_mounts` has for the one that begins."""
+def update_mount_energy(mounts, fields, motion, currents, imposed, imposed_rate, dt, account):
+    """Let the fields follow their currents and book the last step [s], given what `add_mounts` has for the next one."""
     for index in range(mounts.body.size):
         _, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)
-        before, current = account.current[index], mount_current(mounts, index, currents)
-        own_rate = mounts.excited[index] * imposed_rate
+        current, own_rate = mount_current(mounts, index, currents), mounts.excited[index] * imposed_rate
         speed = add(l_d, (0.0, 0.0, own_rate))
         mean = scale(0.5, add(load3(account.speed, index), speed))
         mean = subtract(mean, (0.0, 0.0, account.imposed_rate[index]))
         middle = subtract(l, scale(0.5 * dt, l_d))
-        left = mount_stored_energy(mounts, index, before, middle)
-        energy = mount_stored_energy(mounts, index, current, middle)
+        if index < mounts.coils:
+            account.exchanged[index] += switch_field(mounts, fields, index, current, middle)
+        energy = mount_stored_energy(mounts, fields, index, middle)
         account.work[index] -= dt * dot(load3(account.force, index), mean)
         account.dissipated[index] += dt * dot(load3(account.damping, index), mean)
-        account.exchanged[index] += left - energy
         account.stored[index] += energy - account.energy[index]
-        force, _ = mount_force(mounts, index, current, l, l_d)
+        force, _ = mount_force(mounts, fields, index, current, l, l_d)
         _, c = mount_axes(mounts, index, current)
         store3(account.force, index, force)
         store3(account.damping, index, (c[0] * l_d[0], c[1] * l_d[1], c[2] * l_d[2]))
         store3(account.speed, index, speed)
-        account.current[index], account.energy[index], account.imposed_rate[index] = current, energy, own_rate
+        account.energy[index], account.imposed_rate[index] = energy, own_rate

@@ -17,16 +17,18 @@ class MrMountParameters(Section):
     damping_ratio_fit: vector("-, I in A", 4)
     carried_mass: Mass
     current_range: Range("A")
+    rubber_damping_ratio: scalar("-", ge=0.0, le=0.5) = 0.02
     stiffness_ratio: vector("-", 2, ge=0.0)
     damping_ratio: vector("-", 2, ge=0.0)
 
     @model_validator(mode="after")
     def _stiff_over_the_range(self):
         increasing("current_range", self.current_range)
-        stiffness = np.polyval(self.stiffness_fit, np.linspace(*self.current_range, 201))
+        stiffness = np.polyval(self.stiffness_fit, np.linspace(0.0, self.current_range[1], 201))
         if stiffness.min() <= 0.0:
             raise ValueError(
-                f"stiffness_fit falls to {stiffness.min():.3g} kN/mm within current_range, must stay > 0 there"
+                f"stiffness_fit falls to {stiffness.min():.3g} kN/mm between 0 A and the end of current_range, "
+                "must stay > 0 there"
             )
         return self
 

@@ -1,9 +1,7 @@
 """Mounts between a body and its parent: magnetorheological ones, whose current is set, and rubber ones.
 
-The force law in one place. A mount has three axes of its own. An MR mount has stiffness k(I) and damping
-c(I) = 2 zeta(I) sqrt(k(I) m) along its z axis from the paper's fits, used only inside their valid range, and ratios to
-these along the other two [Tao2025]. A rubber mount has constants. Force and reaction act at the same point (the upper
-end), so that the pair carries no couple; the paper moves the reaction to the lower end instead, which would.
+A mount has three axes of its own; its force along them is that of `mount_law`. Force and reaction act at the same point
+(the upper end), so that the pair carries no couple; the paper moves the reaction to the lower end instead, which would.
 
 MR mounts come first, in the order of the file, then the rubber ones: coil i is that of mount i.
 """
@@ -18,9 +16,11 @@ from ..numerics.spatial import load3, rotate, rotate_back, scale, store3, subtra
 from ..rui.sweeps.articulated import apply_force
 from ..rui.sweeps.kinematics import body_axes, point_place, point_velocity, rotation
 from .body_tree import bodies_on_hinges
+from .mount_law import mount_axes, mount_force
 from .parameters import POWERTRAIN
 
 KN_PER_MM = 1e6  # N/m
+_FINE = 1001  # currents at which the least stiffness is looked for
 
 
 class Mounts(NamedTuple):
@@ -38,7 +38,9 @@ class Mounts(NamedTuple):
     stiffness_fit: np.ndarray  # (c, 4) N/m, highest power of I first
     damping_ratio_fit: np.ndarray  # (c, 4)
     carried_mass: np.ndarray  # (c,) kg
-    current_range: np.ndarray  # (c, 2) valid range of the fits, A
+    rubber: np.ndarray  # (m,) least k(I), N/m; of rubber mounts 1, for their stiffness is no ratio
+    rubber_damping_ratio: np.ndarray  # (c,) without a field
+    highest: np.ndarray  # (c,) end of the fits, A
     stiffness: np.ndarray  # (m, 3) by axis: ratios to k(I), of rubber N/m
     damping: np.ndarray  # (m, 3) likewise: ratios to c(I), of rubber N s/m
 
@@ -88,7 +90,9 @@ def build_mounts(vehicle, rows, loads):
         stiffness_fit=KN_PER_MM * _rows([kind.stiffness_fit for kind in mr], 4),
         damping_ratio_fit=_rows([kind.damping_ratio_fit for kind in mr], 4),
         carried_mass=np.array([kind.carried_mass for kind in mr], dtype=float),
-        current_range=_rows([kind.current_range for kind in mr], 2),
+        rubber=np.array([_least_stiffness(kind) for kind in types], dtype=float),
+        rubber_damping_ratio=np.array([kind.rubber_damping_ratio for kind in mr], dtype=float),
+        highest=np.array([kind.current_range[1] for kind in mr], dtype=float),
         stiffness=_rows([_by_axis(kind, "stiffness") for kind in types], 3),
         damping=_rows([_by_axis(kind, "damping") for kind in types], 3),
     )
@@ -99,6 +103,12 @@ def mount_turn(mount):
     return Rotation.from_euler("xyz", mount.orientation or (0.0, 0.0, 0.0), degrees=True).as_matrix()
 
 
+def _least_stiffness(kind):
+    if kind.kind != "mr":
+        return 1.0
+    return KN_PER_MM * np.polyval(kind.stiffness_fit, np.linspace(0.0, kind.current_range[1], _FINE)).min()
+
+
 def _by_axis(kind, what):
     if kind.kind == "mr":
         return (*getattr(kind, f"{what}_ratio"), 1.0)
@@ -107,30 +117,6 @@ def _by_axis(kind, what):
 
 def _rows(values, size):
     return np.array(values, dtype=float).reshape(-1, size)
-
-
-@kernel
-def mount_characteristics(mounts, index, current):
-    """Return k(I) [N/m] and c(I) [N s/m] of one mount, the current [A] clamped to the valid range of the fits.
-
-    Of a rubber mount they are one, for its `stiffness` and `damping` are no ratios.
-    """
-    if index >= mounts.coils:
-        return 1.0, 1.0
-    i = min(max(current, mounts.current_range[index, 0]), mounts.current_range[index, 1])
-    k, zeta = 0.0, 0.0
-    for n in range(4):
-        k = k * i + mounts.stiffness_fit[index, n]
-        zeta = zeta * i + mounts.damping_ratio_fit[index, n]
-    # a fit must never become an energy source
-    return k, 2.0 * max(zeta, 0.0) * np.sqrt(k * mounts.carried_mass[index])
-
-
-@kernel
-def mount_axes(mounts, index, current):
-    """Return stiffness [N/m] and damping [N s/m] of one mount along its own axes."""
-    k, c = mount_characteristics(mounts, index, current)
-    return scale(k, load3(mounts.stiffness, index)), scale(c, load3(mounts.damping, index))
 
 
 @inlined
@@ -164,41 +150,18 @@ def _axes(mounts, index):
 
 
 @kernel
-def mount_force(mounts, index, current, l, l_d):
-    """Return the force on the body in the mount's axes [N] and the power that the damping turns into heat [W]."""
-    k, c = mount_characteristics(mounts, index, current)
-    r_k, r_c, load = mounts.stiffness[index], mounts.damping[index], mounts.load[index]
-    damping = (c * r_c[0] * l_d[0], c * r_c[1] * l_d[1], c * r_c[2] * l_d[2])
-    force = (
-        load[0] - k * r_k[0] * l[0] - damping[0],
-        load[1] - k * r_k[1] * l[1] - damping[1],
-        load[2] - k * r_k[2] * (l[2] - mounts.unloaded[index]) - damping[2],
-    )
-    return force, damping[0] * l_d[0] + damping[1] * l_d[1] + damping[2] * l_d[2]
-
-
-@kernel
-def mount_stored_energy(mounts, index, current, l):
-    """Return the energy [J] that one mount stores, its preload included; zero where the springs are at ease."""
-    k, _ = mount_axes(mounts, index, current)
-    load, above = mounts.load[index], l[2] - mounts.unloaded[index]
-    springs = 0.5 * (k[0] * l[0] ** 2 + k[1] * l[1] ** 2 + k[2] * above**2)
-    return springs - load[0] * l[0] - load[1] * l[1] - load[2] * l[2]
-
-
-@kernel
-def add_mounts(mounts, motion, cuts, currents, imposed, imposed_rate):
+def add_mounts(mounts, fields, motion, cuts, currents, imposed, imposed_rate):
     """Add the mounts' forces to bodies and parents; `imposed` as in `mount_deflection`."""
     for index in range(mounts.body.size):
         upper, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)
-        force, _ = mount_force(mounts, index, mount_current(mounts, index, currents), l, l_d)
+        force, _ = mount_force(mounts, fields, index, mount_current(mounts, index, currents), l, l_d)
         force = rotate(rotation(motion, mounts.parent[index]), rotate(_axes(mounts, index), force))
         apply_force(cuts, motion, mounts.body[index], upper, force)
         apply_force(cuts, motion, mounts.parent[index], upper, scale(-1.0, force))
 
 
 @kernel
-def observe_mounts(mounts, motion, coils, imposed, imposed_rate, sample):
+def observe_mounts(mounts, fields, motion, coils, imposed, imposed_rate, sample):
     """Fill a `MountSample`, given the `coil.CoilState`."""
     for index in range(mounts.coils):
         sample.current[index] = coils.current[index]
@@ -206,7 +169,7 @@ def observe_mounts(mounts, motion, coils, imposed, imposed_rate, sample):
         current, axes = mount_current(mounts, index, coils.field), _axes(mounts, index)
         _, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)
         k, c = mount_axes(mounts, index, current)
-        force, power = mount_force(mounts, index, current, l, l_d)
+        force, power = mount_force(mounts, fields, index, current, l, l_d)
         sample.stiffness[index], sample.damping[index] = k[2], c[2]
         store3(sample.deflection, index, rotate(axes, l))
         store3(sample.velocity, index, rotate(axes, l_d))

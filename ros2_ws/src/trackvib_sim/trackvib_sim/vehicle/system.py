@@ -17,6 +17,7 @@ from .driver import Driver, build_driver
 from .engine import Engine, RunUp, build_engine
 from .hinge_springs import HingeSprings, build_hinge_springs
 from .mount_energy import MountEnergyState, new_mount_energy_state
+from .mount_law import FieldState, new_field_state
 from .mount_loads import loads_at_rest
 from .mounts import Mounts, build_mounts
 from .supports import Supports, build_supports
@@ -63,6 +64,7 @@ class State(NamedTuple):
     tree: TreeState
     tracks: TrackState
     coils: CoilState
+    fields: FieldState
     crank_angle: np.ndarray  # (1,) rad, see engine.turn_crank
     speed_integral: np.ndarray  # (1,) N
     flight: np.ndarray  # (1,) time since a shoe last touched the ground, s
@@ -122,6 +124,7 @@ def new_state(system):
         tree=_rest(system.tree),
         tracks=new_track_state(system.tracks),
         coils=new_coil_state(system.coil, system.mounts.coils),
+        fields=new_field_state(len(system.mounts.body)),
         crank_angle=np.zeros(1),
         speed_integral=np.zeros(1),
         flight=np.zeros(1),
