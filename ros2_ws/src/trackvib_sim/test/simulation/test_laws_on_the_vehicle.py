@@ -9,7 +9,7 @@ from mr_mount_controller.laws.engine_speed import ORDERS, SPEEDS, EngineSpeedEst
 from mr_mount_controller.laws.passive import Passive
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.closed_loop import run_closed_loop
-from trackvib_sim.vehicle.mounts import mount_characteristics
+from trackvib_sim.vehicle.mount_law import mount_characteristics
 
 PERIOD = 1e-3
 

@@ -10,6 +10,7 @@ from trackvib_sim.rui.sweeps.tree import new_rows, rest_lanes
 from trackvib_sim.vehicle.equilibrium import static_equilibrium
 from trackvib_sim.vehicle.hinge_springs import add_hinge_springs
 from trackvib_sim.vehicle.linear_vehicle import build_linear_vehicle
+from trackvib_sim.vehicle.mount_law import lay_fields, new_field_state
 from trackvib_sim.vehicle.mounts import add_mounts
 from trackvib_sim.vehicle.supports import add_supports
 from trackvib_sim.vehicle.suspension import add_suspension
@@ -39,12 +40,14 @@ def accelerate(solved):
     """A function that returns the 46 accelerations under all forces of the standing vehicle."""
 
     def find(system, tree_state):
+        fields = new_field_state(2)
+        lay_fields(system.mounts, np.full(2, CURRENT), fields)
         torques = new_rows(system.tree)
         add_hinge_springs(system.springs, tree_state, torques)
         add_suspension(system.suspension, tree_state, torques)
 
         def load(motion, cuts):
-            add_mounts(system.mounts, motion, cuts, np.full(2, CURRENT), 0.0, 0.0)
+            add_mounts(system.mounts, fields, motion, cuts, np.full(2, CURRENT), 0.0, 0.0)
             add_supports(system.supports, motion, cuts)
 
         _, _, response = solved(system.tree, tree_state, torques, load)

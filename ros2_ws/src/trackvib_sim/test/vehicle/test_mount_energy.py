@@ -16,7 +16,7 @@ from trackvib_sim.vehicle.mount_energy import (
     start_mount_energy,
     update_mount_energy,
 )
-from trackvib_sim.vehicle.mounts import mount_characteristics
+from trackvib_sim.vehicle.mount_law import lay_fields, mount_characteristics, new_field_state
 
 DT = 1e-4  # s
 CLOSED = 1e-3  # largest residual, of the greatest part
@@ -38,11 +38,14 @@ def swung(system, moved):
             system.mounts.body[0],
             2.0 * np.pi * FREQUENCY,
         )
+        fields = new_field_state(2)
+        lay_fields(system.mounts, np.full(2, float(currents[0])), fields)
         for step, current in enumerate(currents):
             time = (step - 1) * DT
             state.hinge[body] = AMPLITUDE * np.cos(w * time)
             state.hinge_rate[body] = -w * AMPLITUDE * np.sin(w * (time - 0.5 * DT))
-            update_mount_energy(system.mounts, moved(system.tree, state), np.full(2, current), 0.0, 0.0, DT, audit)
+            motion = moved(system.tree, state)
+            update_mount_energy(system.mounts, fields, motion, np.full(2, float(current)), 0.0, 0.0, DT, audit)
             if step == 0:
                 start_mount_energy(audit)
             yield mount_energy_account(audit)

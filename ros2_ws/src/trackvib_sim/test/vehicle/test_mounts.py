@@ -1,4 +1,4 @@
-"""Mounts: the paper's fits, their clamp, and the force pair between hull and powertrain."""
+"""Mounts: the paper's fits and what is below them, and the force pair between hull and powertrain."""
 
 import numpy as np
 import pytest
@@ -11,21 +11,27 @@ from trackvib_sim.rui.sweeps.cells import columns
 from trackvib_sim.rui.sweeps.kinematics import MotionOffset, rotation
 from trackvib_sim.rui.sweeps.tree import rest_lanes, to_lanes
 from trackvib_sim.vehicle.coil import CoilState
-from trackvib_sim.vehicle.mounts import (
-    add_mounts,
+from trackvib_sim.vehicle.mount_law import (
+    lay_fields,
     mount_characteristics,
-    mount_deflection,
     mount_force,
     mount_stored_energy,
-    new_mount_sample,
-    observe_mounts,
+    new_field_state,
 )
+from trackvib_sim.vehicle.mounts import add_mounts, mount_deflection, new_mount_sample, observe_mounts
 
 CURRENTS = st.floats(-1e3, 1e3)
 METRES = st.tuples(*[st.floats(-0.1, 0.1)] * 3)
 SPEEDS = st.tuples(*[st.floats(-10.0, 10.0)] * 3)
 SEEDS = st.integers(0, 2**32 - 1)
 FEW = settings(max_examples=30)
+
+
+def laid(mounts, currents):
+    """The fields of mounts that were at ease when these currents came."""
+    fields = new_field_state(len(mounts.body))
+    lay_fields(mounts, np.broadcast_to(np.asarray(currents, dtype=float), mounts.coils), fields)
+    return fields
 
 
 @pytest.mark.literature
@@ -45,7 +51,7 @@ def test_fits_give_the_printed_values(system, current, stiffness, ratio, damping
 def test_natural_frequency_is_the_papers(system):
     """Where a mount has the paper's 3 kN/mm, it carries its mass at the paper's 8.7 Hz."""
     m = system.mounts
-    current = brentq(lambda i: mount_characteristics(m, 0, i)[0] - 3e6, *m.current_range[0])
+    current = brentq(lambda i: mount_characteristics(m, 0, i)[0] - 3e6, 0.7, m.highest[0])
     k, _ = mount_characteristics(m, 0, current)
     assert np.sqrt(k / m.carried_mass[0]) / (2.0 * np.pi) == pytest.approx(8.7, abs=0.05)
     assert current == pytest.approx(0.894, abs=0.5e-3)
@@ -54,37 +60,39 @@ def test_natural_frequency_is_the_papers(system):
 
 @pytest.mark.property
 @given(current=CURRENTS)
-def test_current_is_clamped_to_the_valid_range(system, current):
-    """Outside the fits' range a mount is as at the range's end."""
+def test_current_is_clamped(system, current):
+    """Beyond the fits' range a mount is as at its end, below zero as without a current."""
     m = system.mounts
-    low, high = m.current_range[0].tolist()
-    clamped = min(max(current, low), high)
+    clamped = min(max(current, 0.0), m.highest[0])
     assert mount_characteristics(m, 0, current) == mount_characteristics(m, 0, clamped)
+
+
+@pytest.mark.literature
+def test_a_dead_coil_leaves_the_rubber(system):
+    """Without a current the fit's 0.904 kN/mm is left, with the damping ratio of the rubber."""
+    m = system.mounts
+    k, c = mount_characteristics(m, 0, 0.0)
+    assert k == pytest.approx(0.904e6) == m.rubber[0]
+    assert c == pytest.approx(2.0 * m.rubber_damping_ratio[0] * np.sqrt(k * m.carried_mass[0]))
+    # where the paper's zeta(I) is negative
+    assert mount_characteristics(m, 0, 0.640)[1] == pytest.approx(c * np.sqrt(mount_characteristics(m, 0, 0.64)[0] / k))
 
 
 @pytest.mark.property
 @given(current=CURRENTS, l=METRES, l_d=SPEEDS)
 def test_damping_never_drives(system, current, l, l_d):
     """Whatever range the file allows, damping is never negative and takes power from every motion."""
-    wide = system.mounts._replace(current_range=np.array([(0.0, 6.0)] * 2))
+    wide = system.mounts._replace(highest=np.full(2, 6.0))
     for mounts in (system.mounts, wide):
         k, c = mount_characteristics(mounts, 0, current)
         assert k > 0.0 and c >= 0.0
-        force, power = mount_force(mounts, 0, current, l, l_d)
-        still, _ = mount_force(mounts, 0, current, l, (0.0, 0.0, 0.0))
+        fields = laid(mounts, current)
+        force, power = mount_force(mounts, fields, 0, current, l, l_d)
+        still, _ = mount_force(mounts, fields, 0, current, l, (0.0, 0.0, 0.0))
         taken = -np.dot(np.subtract(force, still), l_d)
         assert power >= 0.0
         # differences of forces up to 1e6 N
         assert taken == pytest.approx(power, rel=1e-9, abs=1e-7)
-
-
-@pytest.mark.literature
-def test_fit_without_damping_is_cut_at_zero(system):
-    """Below 0.641 A, where the paper's zeta(I) is negative, a mount allowed to go there has no damping."""
-    wide = system.mounts._replace(current_range=np.array([(0.0, 4.0)] * 2))
-    assert mount_characteristics(wide, 0, 0.0)[1] == 0.0
-    assert mount_characteristics(wide, 0, 0.640)[1] == 0.0
-    assert mount_characteristics(wide, 0, 0.643)[1] > 0.0
 
 
 @pytest.mark.analytic
@@ -93,7 +101,7 @@ def test_force_law_by_axis(system):
     m, l, l_d = system.mounts, (0.001, -0.002, 0.003), (0.1, 0.2, -0.3)
     k, c = mount_characteristics(m, 0, 1.5)
     expected = -k * m.stiffness[0] * l - c * m.damping[0] * l_d + (0.0, 0.0, 9800.0)
-    assert_allclose(mount_force(m, 0, 1.5, l, l_d)[0], expected, rtol=1e-14)
+    assert_allclose(mount_force(m, laid(m, 1.5), 0, 1.5, l, l_d)[0], expected, rtol=1e-13)
 
 
 @pytest.mark.analytic
@@ -101,15 +109,16 @@ def test_force_law_by_axis(system):
 def test_elastic_force_is_the_slope_of_the_stored_energy(system, current, l):
     """At rest a mount pushes down the slope of its energy, which is zero at the unloaded place."""
     m, h = system.mounts, 1e-3
+    fields = laid(m, current)
     slope = [
-        (mount_stored_energy(m, 0, current, tuple(l + step)) - mount_stored_energy(m, 0, current, tuple(l - step)))
+        (mount_stored_energy(m, fields, 0, tuple(l + step)) - mount_stored_energy(m, fields, 0, tuple(l - step)))
         / (2.0 * h)
         for step in h * np.eye(3)
     ]
-    force, _ = mount_force(m, 0, current, l, (0.0, 0.0, 0.0))
+    force, _ = mount_force(m, fields, 0, current, l, (0.0, 0.0, 0.0))
     # central differences are exact in a parabola; rounding of energies up to 1e5 J over 2 mm
     assert_allclose(force, np.negative(slope), rtol=0, atol=1e-6)
-    assert mount_stored_energy(m, 0, current, (0.0, 0.0, 0.0)) == 0.0
+    assert mount_stored_energy(m, fields, 0, (0.0, 0.0, 0.0)) == 0.0
 
 
 @pytest.mark.analytic
@@ -133,7 +142,7 @@ def test_deflection_rate_is_the_rate_of_deflection(system, random_state, moved, 
 def test_force_pair_leaves_total_momentum_alone(system, random_motion, added, seed, left, right):
     """Forces and moments on hull and powertrain cancel about any point, and act on nothing else."""
     motion, cuts = random_motion(seed), new_cuts(system.tree)
-    add_mounts(system.mounts, motion, cuts, np.array([left, right]), 1e-4, 0.02)
+    add_mounts(system.mounts, laid(system.mounts, [left, right]), motion, cuts, np.array([left, right]), 1e-4, 0.02)
     loads = added(cuts)
     moment = loads.moment + np.cross(columns(motion, MotionOffset.ORIGIN, 3), loads.force)
     assert np.abs(loads.force).max() > 0.0
@@ -151,7 +160,7 @@ def test_force_pair_does_the_work_of_the_mounts(system, random_motion, added, se
     """The pair's power on both bodies is the sum of force times deflection rate of the two mounts."""
     m, currents = system.mounts, np.array([1.0, 2.0])
     motion, cuts = random_motion(seed), new_cuts(system.tree)
-    add_mounts(m, motion, cuts, currents, 0.0, 0.0)
+    add_mounts(m, laid(m, currents), motion, cuts, currents, 0.0, 0.0)
     loads, velocity, rate = (
         added(cuts),
         columns(motion, MotionOffset.VELOCITY, 3),
@@ -161,7 +170,7 @@ def test_force_pair_does_the_work_of_the_mounts(system, random_motion, added, se
     expected = 0.0
     for index in range(2):
         _, l, l_d = mount_deflection(m, motion, index, 0.0, 0.0)
-        expected += np.dot(mount_force(m, index, currents[index], l, l_d)[0], l_d)
+        expected += np.dot(mount_force(m, laid(m, currents), index, currents[index], l, l_d)[0], l_d)
     size = np.abs(loads.force).max() * np.abs(velocity).max() + np.abs(loads.moment).max()
     assert power == pytest.approx(expected, abs=1e-11 * size)
 
@@ -175,7 +184,7 @@ def test_imposed_displacement_acts_across_the_mounts(system, moved, added):
     loads = []
     for d, d_rate in ((0.0, 0.0), (2e-4, 0.05)):
         cuts = new_cuts(system.tree)
-        add_mounts(system.mounts, motion, cuts, np.array([1.0, 1.0]), d, d_rate)
+        add_mounts(system.mounts, laid(system.mounts, 1.0), motion, cuts, np.ones(2), d, d_rate)
         loads.append(added(cuts))
     push = (loads[1].force - loads[0].force)[[system.mounts.body[0], system.mounts.parent[0]], 2]
     assert_allclose(push, [2.0 * (k * 2e-4 + c * 0.05), -2.0 * (k * 2e-4 + c * 0.05)], rtol=1e-9)
@@ -191,9 +200,10 @@ def test_observed_mounts_are_those_that_act(system, random_motion, added, seed):
     """
     m, currents = system.mounts, np.array([0.9, 3.1])
     motion, cuts = random_motion(seed), new_cuts(system.tree)
-    add_mounts(m, motion, cuts, currents, 2e-4, 0.05)
+    fields = laid(m, currents)
+    add_mounts(m, fields, motion, cuts, currents, 2e-4, 0.05)
     sample, in_coils = new_mount_sample(m), np.array([1.0, 3.0])
-    observe_mounts(m, motion, CoilState(np.zeros((2, 0)), in_coils, in_coils, currents), 2e-4, 0.05, sample)
+    observe_mounts(m, fields, motion, CoilState(np.zeros((2, 0)), in_coils, in_coils, currents), 2e-4, 0.05, sample)
     turn = np.reshape(rotation(motion, m.parent[0]), (3, 3))
     assert_allclose(turn @ sample.force.sum(0), added(cuts).force[m.body[0]], rtol=1e-12)
     assert_allclose(sample.current, in_coils)
