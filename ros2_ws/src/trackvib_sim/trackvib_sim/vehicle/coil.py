@@ -86,11 +86,12 @@ def _decays(lag, eddy_lag, dt):
 
 
 def usable_current(vehicle):
-    """Return the range of demanded current that neither the driver nor the fits of the mounts cut [A]."""
+    """Return the range of demanded current that neither the driver nor the end of the mounts' fits cuts [A]."""
     used = {mount.type for mount in vehicle.mounts.values()}
     kinds = [vehicle.mount_types[name] for name in used]
-    ranges = [vehicle.coil.current_limits, *(kind.current_range for kind in kinds if kind.kind == "mr")]
-    return np.array([max(low for low, _ in ranges), min(high for _, high in ranges)])
+    low, high = vehicle.coil.current_limits
+    ends = [kind.current_range[1] for kind in kinds if kind.kind == "mr"]
+    return np.array([max(low, 0.0), min(high, *ends)])
 
 
 def new_coil_state(coil, count):
