@@ -91,7 +91,7 @@ def usable_current(vehicle):
     kinds = [vehicle.mount_types[name] for name in used]
     low, high = vehicle.coil.current_limits
     ends = [kind.current_range[1] for kind in kinds if kind.kind == "mr"]
-    return np.array([max(low, 0.0), min(high, *ends)])
+    return np.array([max(low, 0.0), min([high, *ends])])
 
 
 def new_coil_state(coil, count):
