@@ -215,7 +215,7 @@ def _print_summary(console, summary, folder):
     unanswered = loop["samples"] if loop["unanswered"] is None else loop["unanswered"]  # None: not one answer came
     for line in (
         f"mounts: {mounts.work:.1f} J of work = {mounts.dissipated:.1f} dissipated {mounts.stored:+.1f} stored "
-        f"{mounts.exchanged:+.1f} given to the field by switching; left over {100.0 * mounts.error:.3f} %",
+        f"{mounts.exchanged:+.1f} lost to the field by switching; left over {100.0 * mounts.error:.3f} %",
         f"loop: {loop['samples']} samples; lost {loop['lost_chassis']} chassis, {loop['lost_powertrain']} powertrain; "
         f"unanswered {unanswered}; late {loop['late']}; rejected "
         f"{int(loop['early']) + int(loop['duplicate']) + int(loop['not_finite'])}; saturated {loop['saturated']}",
