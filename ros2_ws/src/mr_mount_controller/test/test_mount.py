@@ -9,6 +9,7 @@ from mr_mount_controller.mount import (
     CARRIED_MASS,
     HIGHEST_CURRENT,
     LOWEST_CURRENT,
+    RUBBER_DAMPING_RATIO,
     current_for_damping,
     damping,
     stiffness,
@@ -27,11 +28,19 @@ def test_rated_point():
 
 @pytest.mark.property
 @given(current=st.floats(-1e3, 1e3))
-def test_fits_are_used_in_their_range_only(current):
-    """Whatever the current, stiffness and damping are those of the nearest valid one, and positive."""
-    nearest = min(max(current, LOWEST_CURRENT), HIGHEST_CURRENT)
+def test_fits_end_at_zero_and_at_the_highest_current(current):
+    """Whatever the current, stiffness and damping are those of the nearest one between, and positive."""
+    nearest = min(max(current, 0.0), HIGHEST_CURRENT)
     assert stiffness(current) == stiffness(nearest) > 0.0
     assert damping(current) == damping(nearest) > 0.0
+
+
+@pytest.mark.property
+@given(current=st.floats(0.0, 0.66))
+def test_a_weak_field_leaves_the_rubber(current):
+    """Stiffness goes on along its fit; damping is the rubber's where the fit gives less, or none."""
+    assert stiffness(0.0) == pytest.approx(0.904e6) and stiffness(current) >= stiffness(0.0)
+    assert damping(current) == pytest.approx(2.0 * RUBBER_DAMPING_RATIO * sqrt(stiffness(current) * CARRIED_MASS))
 
 
 @pytest.mark.property

@@ -137,6 +137,12 @@ def test_new_state_is_all_zero(system):
     assert state.tree.attitude.tolist() == [[1.0, 0.0, 0.0, 0.0]]
     alone = (state.tracks.nodes, state.crank_angle, state.speed_integral, state.flight)
     for part in (
-        *state.tree[:1], *state.tree[2:], *state.tracks.tensioner, *state.coils, *state.fields, *alone, *state.mount_energy
+        *state.tree[:1],
+        *state.tree[2:],
+        *state.tracks.tensioner,
+        *state.coils,
+        *state.fields,
+        *alone,
+        *state.mount_energy,
     ):
         assert not part.any()
