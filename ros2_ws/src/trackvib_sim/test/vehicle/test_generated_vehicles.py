@@ -13,8 +13,8 @@ from trackvib_sim.rui.sweeps.articulated import new_cuts
 from trackvib_sim.simulation.open_loop import run_open_loop
 from trackvib_sim.vehicle.body_tree import GRAVITY, SIDES, bodies_on_hinges, build_body_table
 from trackvib_sim.vehicle.equilibrium import static_equilibrium
-from trackvib_sim.vehicle.mount_loads import loads_at_rest
 from trackvib_sim.vehicle.mount_law import mount_axes
+from trackvib_sim.vehicle.mount_loads import loads_at_rest
 from trackvib_sim.vehicle.mounts import mount_turn
 from trackvib_sim.vehicle.sensors import sensors_of
 from trackvib_sim.vehicle.step_size import recommended_rate

@@ -10,6 +10,7 @@ from trackvib_sim.rui.sweeps.articulated import new_cuts
 from trackvib_sim.rui.sweeps.cells import columns
 from trackvib_sim.rui.sweeps.kinematics import MotionOffset, rotation
 from trackvib_sim.rui.sweeps.tree import rest_lanes, to_lanes
+from trackvib_sim.vehicle.body_tree import GRAVITY
 from trackvib_sim.vehicle.coil import CoilState
 from trackvib_sim.vehicle.mount_law import (
     lay_fields,
@@ -55,7 +56,15 @@ def test_natural_frequency_is_the_papers(system):
     k, _ = mount_characteristics(m, 0, current)
     assert np.sqrt(k / m.carried_mass[0]) / (2.0 * np.pi) == pytest.approx(8.7, abs=0.05)
     assert current == pytest.approx(0.894, abs=0.5e-3)
-    assert_allclose(m.load, [(0.0, 0.0, 9800.0)] * 2)
+
+
+@pytest.mark.literature
+def test_mounts_are_trimmed_for_about_the_rated_load(vehicle, system):
+    """Nobody gives their loads: what they carry turns the powertrain as its weight does, 9.8 kN each to a tenth."""
+    m, body = system.mounts, vehicle.powertrain
+    moments = [np.cross(mount.place, load)[1] for mount, load in zip(vehicle.mounts.values(), m.load, strict=True)]
+    assert sum(moments) == pytest.approx(-body.mass * GRAVITY * body.centre[0])
+    assert_allclose(m.load[:, 2], 9800.0, rtol=0.1)
 
 
 @pytest.mark.property
@@ -97,10 +106,10 @@ def test_damping_never_drives(system, current, l, l_d):
 
 @pytest.mark.analytic
 def test_force_law_by_axis(system):
-    """Each axis has its ratio of k and c; the vertical one also carries the rated load."""
+    """Each axis has its ratio of k and c; what the mount carries at rest comes on top."""
     m, l, l_d = system.mounts, (0.001, -0.002, 0.003), (0.1, 0.2, -0.3)
     k, c = mount_characteristics(m, 0, 1.5)
-    expected = -k * m.stiffness[0] * l - c * m.damping[0] * l_d + (0.0, 0.0, 9800.0)
+    expected = -k * m.stiffness[0] * l - c * m.damping[0] * l_d + m.load[0]
     assert_allclose(mount_force(m, laid(m, 1.5), 0, 1.5, l, l_d)[0], expected, rtol=1e-13)
 
 

@@ -74,7 +74,7 @@ def test_published_values_are_the_papers(vehicle):
     m, e = vehicle.mount_types["mr"], vehicle.engine
     assert m.stiffness_fit == [0.0412, -0.581, 2.8317, 0.904]
     assert m.damping_ratio_fit == [0.0121, -0.1567, 0.6526, -0.3573]
-    assert m.carried_mass == 1000.0 and {mount.static_load for mount in vehicle.mounts.values()} == {9800.0}
+    assert m.carried_mass == 1000.0
     assert (e.rated_speed, e.speed_range, e.imposed_amplitude) == (1650.0, [450.0, 2100.0], 2e-4)
 
 

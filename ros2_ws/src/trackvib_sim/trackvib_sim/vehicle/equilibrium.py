@@ -19,7 +19,7 @@ from .suspension import add_suspension
 from .system import new_state, new_work
 
 TOLERANCE = 1e-8  # m/s^2 and rad/s^2 left over
-_LOAD_STEPS = 20  # of gravity
+_LOAD_STEPS = 50  # of gravity
 _NEWTON_STEPS = 12  # of each; where stops come and go, half a dozen are needed
 _DIFFERENCE = 1e-7  # m or rad
 

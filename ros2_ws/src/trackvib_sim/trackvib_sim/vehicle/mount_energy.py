@@ -4,10 +4,12 @@
 
 A mount takes work from hull, powertrain and the displacement that the engine imposes. Its damping turns work into heat,
 its springs store it, and where the current changes while the field holds energy, a part goes to the magnetic field and
-is lost (`mount_law`): never less than none. As in `energy.py`, speeds belong to the middle of the steps and places to their ends. So the
-force of a step, as it acted, does its work at the mean of the speeds before and after it, and its damping turns work
-into heat at the same; the spring is looked at, and changes its stiffness, in the middle of the steps. What is then left
-over falls with the step squared.
+is lost (`mount_law`): never less than none.
+
+As in `energy.py`, speeds belong to the middle of the steps and places to their ends. So the force of a step, as it
+acted, does its work at the mean of the speeds before and after it, and its damping turns work into heat at the same;
+the spring is looked at, and changes its stiffness, in the middle of the steps. What is then left over falls with the
+step squared.
 """
 
 from typing import NamedTuple
