@@ -61,7 +61,7 @@ def test_takes_another_vehicle(modes):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("--current", 0.3), ("current is 0.3 A", "0.7 to 4 A")),
+        (("--current", 5), ("current is 5 A", "0 to 4 A")),
         (("--out", "nowhere/modes.png"), ("nowhere/modes.png", "folder must exist")),
     ],
 )

@@ -12,6 +12,7 @@ from .commands.analyze_cli import analyze
 from .commands.bag_cli import bag
 from .commands.endings import fail, say
 from .commands.lasting_output import OutputLost, lasting_output
+from .commands.mount_cli import mount
 from .commands.option_types import INTERRUPTED, FiniteRange, known_law, vehicle_option
 from .commands.replay_cli import replay
 from .commands.study_cli import study
@@ -169,6 +170,7 @@ def vehicle(vehicle, out, listing, schema):
 
 main.add_command(analyze)
 main.add_command(bag)
+main.add_command(mount)
 main.add_command(replay)
 main.add_command(study)
 

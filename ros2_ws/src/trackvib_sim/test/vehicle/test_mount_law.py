@@ -19,10 +19,14 @@ STILL = (0.0, 0.0, 0.0)
 SOFT, FIRM = 0.8, 3.5  # A
 
 
-@pytest.fixture(scope="module")
-def unloaded(system):
+YIELDING = 1e3 * np.array([(0.0, 0.0, 1.2, 0.3)] * 2)  # N, 1.2 kN more an ampere
+
+
+@pytest.fixture(scope="module", params=["without yield", "yielding"])
+def unloaded(system, request):
     """The mounts without what they carry, so that rest is at zero and stores nothing."""
-    return system.mounts._replace(load=np.zeros((2, 3)))
+    mounts = system.mounts._replace(load=np.zeros((2, 3)))
+    return mounts._replace(yield_fit=YIELDING) if request.param == "yielding" else mounts
 
 
 def laid(mounts, current):
@@ -37,19 +41,25 @@ def spring(mounts, fields, l):
     return np.array(mount_force(mounts, fields, 0, 1.0, l, STILL)[0])
 
 
+def led(mounts, fields, here, there, steps=1000):
+    """The work that it takes to lead the first mount slowly on a straight line, by the trapezoidal rule."""
+    places = np.linspace(here, there, steps + 1)
+    force = np.array([spring(mounts, fields, tuple(place)) for place in places])
+    return -0.5 * ((force[1:] + force[:-1]) * np.diff(places, axis=0)).sum()
+
+
 @pytest.mark.property
 @given(moves=MOVES, first=st.floats(0.0, 4.0))
 def test_passive_from_rest_under_any_current(unloaded, moves, first):
-    """Work done on the springs is what they store and what switching loses, which is never less than nothing."""
+    """Work done on the springs is what they store, turn into heat and lose by switching, which is never negative."""
     fields, here, work, lost = laid(unloaded, first), STILL, 0.0, 0.0
     for l, current in moves:
-        before = spring(unloaded, fields, here)
-        work -= 0.5 * np.dot(before + spring(unloaded, fields, l), np.subtract(l, here))  # linear between
-        assert work == pytest.approx(mount_stored_energy(unloaded, fields, 0, l) + lost, rel=1e-9, abs=1e-6)
-        assert work >= -1e-6
-        loss = switch_field(unloaded, fields, 0, current, l)
-        assert loss >= -1e-9
-        here, lost = l, lost + loss
+        work += led(unloaded, fields, here, l)
+        heat, loss = switch_field(unloaded, fields, 0, current, l)
+        assert heat >= -1e-9 and loss >= -1e-9
+        here, lost = l, lost + heat + loss
+        assert work == pytest.approx(mount_stored_energy(unloaded, fields, 0, l) + lost, rel=1e-3, abs=1e-3)
+        assert work >= -1e-3
 
 
 @pytest.mark.property
@@ -59,8 +69,10 @@ def test_force_never_rises_with_the_current_at_rest(unloaded, l, first, second):
     fields = laid(unloaded, first)
     before = spring(unloaded, fields, l)
     switch_field(unloaded, fields, 0, second, l)
-    k = [mount_characteristics(unloaded, 0, current)[0] for current in (first, min(first, second))]
-    expected = before * np.where(before == 0.0, 1.0, k[1] / k[0])
+    rubber, *k = (mount_characteristics(unloaded, 0, current)[0] for current in (0.0, first, min(first, second)))
+    of_rubber = -rubber * unloaded.stiffness[0] * l
+    left = (k[1] - rubber) / (k[0] - rubber) if k[0] > rubber else 1.0
+    expected = of_rubber + left * (before - of_rubber)
     assert spring(unloaded, fields, l) == pytest.approx(expected, rel=1e-9, abs=1e-6)
 
 
@@ -71,8 +83,7 @@ def test_firm_on_return_gets_nothing(unloaded):
     for _ in range(10):
         for l, then in ((amplitude, FIRM), (0.0, SOFT), (-amplitude, FIRM), (0.0, SOFT)):
             there = (0.0, 0.0, l)
-            force = spring(unloaded, fields, here) + spring(unloaded, fields, there)
-            work -= 0.5 * np.dot(force, np.subtract(there, here))
+            work += led(unloaded, fields, here, there, 10)
             switch_field(unloaded, fields, 0, then, there)
             here = there
         assert work > 0.0

@@ -84,7 +84,9 @@ def update_mount_energy(mounts, fields, motion, currents, imposed, imposed_rate,
         mean = subtract(mean, (0.0, 0.0, account.imposed_rate[index]))
         middle = subtract(l, scale(0.5 * dt, l_d))
         if index < mounts.coils:
-            account.exchanged[index] += switch_field(mounts, fields, index, current, middle)
+            heat, lost = switch_field(mounts, fields, index, current, middle)
+            account.dissipated[index] += heat
+            account.exchanged[index] += lost
         energy = mount_stored_energy(mounts, fields, index, middle)
         account.work[index] -= dt * dot(load3(account.force, index), mean)
         account.dissipated[index] += dt * dot(load3(account.damping, index), mean)

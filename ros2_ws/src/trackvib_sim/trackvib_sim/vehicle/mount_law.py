@@ -9,10 +9,16 @@ remembers:
 
     F = F_0 - k(0) l - f - c(I) l',    f' = dk(I) l',    dk(I) = k(I) - k(0)
 
-At constant current from rest this is the paper's k(I) l. A rising current makes the field stiffer from where the mount
+At constant current from rest this is the paper's k(I) l. A fluid that yields has a yield force F_y(I): what the field
+carries comes near it and goes no further, as in the model of Bouc and Wen with n = 1 and equal shape factors [Wen],
+
+    f' = dk(I) l' (1 - |f| / F_y) while f grows, dk(I) l' while it goes back;  without F_y it grows without end.
+ A rising current makes the field stiffer from where the mount
 is then: f stays. A falling one takes its share of f away: f falls as dk does. The field holds f^2 / (2 dk), so either
 way it loses energy, (1 - dk / dk') of it when it rises to dk' and as much when it falls from dk' to dk: the mount is
 passive under any current. A mount at rest in the middle feels nothing of its field.
+
+[Wen] Y.-K. Wen, "Method for random vibration of hysteretic systems", J. Eng. Mech. Div. ASCE 102 (1976) 249.
 """
 
 from typing import NamedTuple
@@ -24,16 +30,17 @@ from ..numerics.spatial import dot, load3, scale, store3
 
 
 class FieldState(NamedTuple):
-    """What the fields of m mounts remember. Fields change in the middle of physics steps (`mount_energy`)."""
+    """What the fields of m mounts remember. They change in the middle of physics steps (`mount_energy`)."""
 
     place: np.ndarray  # (m, 3) deflection when they changed last, m
     force: np.ndarray  # (m, 3) f there, against the deflection, N
     stiffness: np.ndarray  # (m,) dk along z since, N/m; 0 of rubber mounts
+    limit: np.ndarray  # (m,) F_y along z since, N; infinite where nothing yields
 
 
 def new_field_state(m):
     """Return the state of m mounts without a field."""
-    return FieldState(*(np.zeros(shape) for shape in ((m, 3), (m, 3), m)))
+    return FieldState(np.zeros((m, 3)), np.zeros((m, 3)), np.zeros(m), np.full(m, np.inf))
 
 
 @kernel
@@ -69,6 +76,7 @@ def lay_fields(mounts, currents, fields):
         fields.place[index] = 0.0
         fields.place[index, 2] = mounts.unloaded[index]
         fields.force[index] = 0.0
+        fields.limit[index] = yield_force(mounts, index, currents[index])
 
 
 @kernel
@@ -77,14 +85,50 @@ def _field_stiffness(mounts, index, current):
 
 
 @kernel
+def yield_force(mounts, index, current):
+    """Return F_y(I) [N] of one mount along z, infinite of one whose fluid does not yield."""
+    i, force = min(max(current, 0.0), mounts.highest[index]), 0.0
+    for n in range(4):
+        force = force * i + mounts.yield_fit[index, n]
+    return force
+
+
+@kernel
+def lead_field(stiffness, limit, force, way):
+    """Return what the field carries [N] along one axis when it is led from `force` by a way [m]; exact for any way."""
+    if not limit < np.inf:
+        return force + stiffness * way
+    if force * way < 0.0:
+        if stiffness * abs(way) <= abs(force):
+            return force + stiffness * way
+        force, way = 0.0, way + force / stiffness
+    size = abs(force) - (limit - abs(force)) * np.expm1(-stiffness * abs(way) / limit)
+    return size if way > 0.0 else -size if way < 0.0 else force
+
+
+@kernel
+def _work(stiffness, limit, force, way):
+    """Return the work [J] that leading it so takes."""
+    if not limit < np.inf:
+        return way * (force + 0.5 * stiffness * way)
+    back = 0.0
+    if force * way < 0.0:
+        if stiffness * abs(way) <= abs(force):
+            return way * (force + 0.5 * stiffness * way)
+        back, force, way = -0.5 * force * force / stiffness, 0.0, way + force / stiffness
+    ways = stiffness * abs(way) / limit
+    return back + limit / stiffness * (limit * ways + (limit - abs(force)) * np.expm1(-ways))
+
+
+@kernel
 def field_force(mounts, fields, index, l):
     """Return f [N] of one mount at a deflection [m], along its axes."""
-    dk, ratio = fields.stiffness[index], mounts.stiffness[index]
+    dk, limit, ratio = fields.stiffness[index], fields.limit[index], mounts.stiffness[index]
     place, force = fields.place[index], fields.force[index]
     return (
-        force[0] + dk * ratio[0] * (l[0] - place[0]),
-        force[1] + dk * ratio[1] * (l[1] - place[1]),
-        force[2] + dk * ratio[2] * (l[2] - place[2]),
+        lead_field(dk * ratio[0], limit * ratio[0], force[0], l[0] - place[0]),
+        lead_field(dk * ratio[1], limit * ratio[1], force[1], l[1] - place[1]),
+        lead_field(dk * ratio[2], limit * ratio[2], force[2], l[2] - place[2]),
     )
 
 
@@ -101,22 +145,44 @@ def _field_energy(mounts, index, dk, force):
 
 @kernel
 def switch_field(mounts, fields, index, current, l):
-    """Let the field of one mount follow its current [A] at a deflection [m]; returns the energy that it loses [J]."""
+    """Let the field of one mount follow its current [A] at a deflection [m].
+
+    Returns the energy that it has turned into heat on the way there, and what it loses by the switching [J].
+    """
     before, after = fields.stiffness[index], _field_stiffness(mounts, index, current)
-    if after == before:
-        return 0.0
-    f = field_force(mounts, fields, index, l)
+    limit = yield_force(mounts, index, current)
+    if after == before and not limit < np.inf:
+        return 0.0, 0.0
+    f, heat = field_force(mounts, fields, index, l), 0.0
+    if fields.limit[index] < np.inf and before > 0.0:
+        for k in range(3):
+            ratio, force = mounts.stiffness[index, k], fields.force[index, k]
+            if ratio > 0.0:
+                stiffness = ratio * before
+                heat += _work(stiffness, ratio * fields.limit[index], force, l[k] - fields.place[index, k])
+                heat -= 0.5 * (f[k] * f[k] - force * force) / stiffness
     left = f if after >= before else scale(after / before, f)
     lost = _field_energy(mounts, index, before, f) - _field_energy(mounts, index, after, left)
-    fields.stiffness[index] = after
+    fields.stiffness[index], fields.limit[index] = after, limit
     store3(fields.place, index, l)
     store3(fields.force, index, left)
-    return lost
+    return heat, lost
+
+
+@kernel
+def _yield_heat(mounts, fields, index, f, l_d):
+    """Return the power [W] that the fluid turns into heat as it yields."""
+    heat, limit = 0.0, fields.limit[index]
+    if limit < np.inf:
+        for k in range(3):
+            if f[k] * l_d[k] > 0.0:
+                heat += f[k] * l_d[k] * abs(f[k]) / (limit * mounts.stiffness[index, k])
+    return heat
 
 
 @kernel
 def mount_force(mounts, fields, index, current, l, l_d):
-    """Return the force on the body in the mount's axes [N] and the power that the damping turns into heat [W]."""
+    """Return the force on the body in the mount's axes [N], and the power that is turned into heat [W]."""
     rubber = scale(mounts.rubber[index], load3(mounts.stiffness, index))
     _, c = mount_axes(mounts, index, current)
     field, load = field_force(mounts, fields, index, l), mounts.load[index]
@@ -126,7 +192,7 @@ def mount_force(mounts, fields, index, current, l, l_d):
         load[1] - rubber[1] * l[1] - field[1] - damping[1],
         load[2] - rubber[2] * (l[2] - mounts.unloaded[index]) - field[2] - damping[2],
     )
-    return force, dot(damping, l_d)
+    return force, dot(damping, l_d) + _yield_heat(mounts, fields, index, field, l_d)
 
 
 @kernel

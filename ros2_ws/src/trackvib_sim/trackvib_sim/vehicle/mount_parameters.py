@@ -10,13 +10,17 @@ from .sections import Angles, Gain, Mass, Name, Place, Range, Section, increasin
 
 
 class MrMountParameters(Section):
-    """Magnetorheological mounts: measured fits, their valid range, the other axes as ratios to the vertical one."""
+    """Magnetorheological mounts: measured fits, their valid range, the other axes as ratios to the vertical one.
+
+    With `yield_force_fit` what a field adds to the stiffness yields at that force (`mount_law`).
+    """
 
     kind: Literal["mr"]
     stiffness_fit: vector("kN/mm, I in A", 4)
     damping_ratio_fit: vector("-, I in A", 4)
     carried_mass: Mass
     current_range: Range("A")
+    yield_force_fit: vector("kN, I in A", 4) | None = None
     rubber_damping_ratio: scalar("-", ge=0.0, le=0.5) = 0.02
     stiffness_ratio: vector("-", 2, ge=0.0)
     damping_ratio: vector("-", 2, ge=0.0)
@@ -24,12 +28,14 @@ class MrMountParameters(Section):
     @model_validator(mode="after")
     def _stiff_over_the_range(self):
         increasing("current_range", self.current_range)
-        stiffness = np.polyval(self.stiffness_fit, np.linspace(0.0, self.current_range[1], 201))
-        if stiffness.min() <= 0.0:
-            raise ValueError(
-                f"stiffness_fit falls to {stiffness.min():.3g} kN/mm between 0 A and the end of current_range, "
-                "must stay > 0 there"
-            )
+        currents = np.linspace(0.0, self.current_range[1], 201)
+        for name, unit in (("stiffness_fit", "kN/mm"), ("yield_force_fit", "kN")):
+            fit = getattr(self, name)
+            least = np.inf if fit is None else np.polyval(fit, currents).min()
+            if least <= 0.0:
+                raise ValueError(
+                    f"{name} falls to {least:.3g} {unit} between 0 A and the end of current_range, must stay > 0 there"
+                )
         return self
 
 

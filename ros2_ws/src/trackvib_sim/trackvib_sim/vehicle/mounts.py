@@ -19,7 +19,9 @@ from .body_tree import bodies_on_hinges
 from .mount_law import mount_axes, mount_force
 from .parameters import POWERTRAIN
 
+KILO = 1e3
 KN_PER_MM = 1e6  # N/m
+NO_YIELD = (0.0, 0.0, 0.0, np.inf)
 _FINE = 1001  # currents at which the least stiffness is looked for
 
 
@@ -41,6 +43,7 @@ class Mounts(NamedTuple):
     rubber: np.ndarray  # (m,) least k(I), N/m; of rubber mounts 1, for their stiffness is no ratio
     rubber_damping_ratio: np.ndarray  # (c,) without a field
     highest: np.ndarray  # (c,) end of the fits, A
+    yield_fit: np.ndarray  # (c, 4) N, as the other fits; infinite where the fluid does not yield
     stiffness: np.ndarray  # (m, 3) by axis: ratios to k(I), of rubber N/m
     damping: np.ndarray  # (m, 3) likewise: ratios to c(I), of rubber N s/m
 
@@ -93,6 +96,7 @@ def build_mounts(vehicle, rows, loads):
         rubber=np.array([_least_stiffness(kind) for kind in types], dtype=float),
         rubber_damping_ratio=np.array([kind.rubber_damping_ratio for kind in mr], dtype=float),
         highest=np.array([kind.current_range[1] for kind in mr], dtype=float),
+        yield_fit=KILO * _rows([kind.yield_force_fit or NO_YIELD for kind in mr], 4),
         stiffness=_rows([_by_axis(kind, "stiffness") for kind in types], 3),
         damping=_rows([_by_axis(kind, "damping") for kind in types], 3),
     )

@@ -1,0 +1,69 @@
+"""`trackvib mount`: options of the test bench."""
+
+import click
+
+from .endings import fail
+from .option_types import FiniteRange, Several, vehicle_option
+
+
+def _numbers(name, default, low, high, words):
+    return click.option(
+        name, type=Several(FiniteRange(low, high)), default=default, show_default=True, metavar="X,X,...", help=words
+    )
+
+
+_OUT = click.option(
+    "--out", type=click.Path(file_okay=False), default="mount", show_default=True, help="Folder to make for the result."
+)
+
+
+@click.group(invoke_without_command=True)
+@vehicle_option
+@click.option("--mount", default=None, help="Name of the mount.  [default: the vehicle's first]")
+@_numbers("--amplitudes", "0.2,1,3", 1e-3, 50.0, "Amplitudes in mm.")
+@_numbers("--frequencies", "1,8.7,30", 1e-3, 500.0, "Frequencies in Hz.")
+@_numbers("--currents", "0,1,2,4", 0.0, 20.0, "Constant currents in A.")
+@_OUT
+@click.pass_context
+def mount(context, **choices):
+    """Shake a mount on a test bench; leaves its loops as picture and CSV."""
+    if context.invoked_subcommand is not None:
+        return
+    from .mount import run_bench  # imported late: --help need not wait for it
+    from .result_folder import CommandError
+
+    try:
+        run_bench(choices.pop("vehicle"), **choices)
+    except (CommandError, ValueError) as error:
+        fail(error)
+
+
+@mount.command()
+@click.argument("file", type=click.Path(exists=True, dir_okay=False))
+@click.option(
+    "--law",
+    type=click.Choice(["viscoelastic", "yielding"]),
+    default="yielding",
+    show_default=True,
+    help="Without or with a yield force.",
+)
+@click.option(
+    "--carried-mass",
+    type=FiniteRange(1.0, 1e6),
+    default=1000.0,
+    show_default=True,
+    help="Mass in kg to which the damping ratio refers.",
+)
+@_OUT
+def fit(file, law, carried_mass, out):
+    """Fit a mount's law to measured loops.
+
+    FILE is CSV with the columns time_s, displacement_m, force_N, current_A.
+    """
+    from .mount import run_fit  # imported late, as above
+    from .result_folder import CommandError
+
+    try:
+        run_fit(file, law, carried_mass, out)
+    except (CommandError, ValueError, OSError) as error:
+        fail(error)

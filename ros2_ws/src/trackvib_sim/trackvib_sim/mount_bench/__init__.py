@@ -1,0 +1,1 @@
+"""A test bench for mounts: what a mount does when it is shaken, and a mount's parameters from measured loops."""
