@@ -18,6 +18,8 @@ from trackvib_sim.vehicle.mount_energy import (
 )
 from trackvib_sim.vehicle.mount_law import lay_fields, mount_characteristics, new_field_state
 
+from .generated_vehicles import yielding
+
 DT = 1e-4  # s
 CLOSED = 1e-3  # largest residual, of the greatest part
 AMPLITUDE, FREQUENCY = 1e-3, 20.0  # rad, Hz, of the powertrain on its hinge
@@ -129,13 +131,14 @@ QUICK = dict(model="current_loop", delay=0.001, eddy_time_constant=0.003, slew_r
 
 
 @pytest.mark.property
+@pytest.mark.parametrize("mounts", [lambda vehicle: vehicle, yielding], ids=["shipped", "yielding"])
 @pytest.mark.parametrize(("law", "items"), [(Skyhook, {}), (Skyhook, QUICK), (Random, QUICK)])
-def test_a_run_under_switching_current_closes(simulation, changed, rough, law, items):
+def test_a_run_under_switching_current_closes(simulation, changed, rough, law, items, mounts):
     """Two seconds of class E at 10 m/s with the engine at rated speed: below 0.1 % is left over.
 
     Switching moves energy enough for that to say something, and the heat is that of the published power.
     """
-    moving = simulation(10.0, 1650.0, vehicle=changed("coil", **items))
+    moving = simulation(10.0, 1650.0, vehicle=mounts(changed("coil", **items)))
     dissipation, advance = [], moving.advance
 
     def watched(demanded):

@@ -14,7 +14,7 @@ from trackvib_sim.vehicle.step_size import recommended_rate
 from trackvib_sim.vehicle.system import Operation, build_system, new_state
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
-from ..generated_vehicles import made
+from ..generated_vehicles import made, yielding
 from .momentum import momentum
 
 pytestmark = pytest.mark.property
@@ -25,6 +25,7 @@ _GENERATED = {"leading": 2, "turret": False, "mounts": 4, "coils": 2}
 OTHERS = {
     "m113": lambda: read_vehicle(find_vehicle("m113"))[0],
     "leopard1": lambda: read_vehicle(find_vehicle("leopard1"))[0],
+    "yielding mounts": lambda: yielding(read_vehicle(find_vehicle())[0]),
     "front drive": lambda: made(stations=5, stagger=0.06, rollers=0, front_drive=True, cabin="elastic", **_GENERATED),
     "many stations": lambda: made(stations=9, stagger=-0.085, rollers=3, front_drive=False, cabin="free", **_GENERATED),
 }

@@ -35,10 +35,11 @@ def _verdict(rows):
     lines = [
         "## What is gained",
         "",
-        "By how many percent each quantity is less (negative: more), mean ± standard deviation over the seeds, every",
-        "seed compared with itself. Constant current and law are those with the least of that quantity. Chance is the",
-        f"scatter of the means among constant currents from {ALIKE:g} A on, whose mounts are nearly alike: tracks",
-        "amplify the smallest difference, and a gain of that size means nothing.",
+        "By how many percent each quantity is less (negative: more), mean ± half of the 95 % interval by Student's t",
+        "over the seeds, every seed compared with itself; bold where the interval excludes zero. Constant current and",
+        "law are those with the least of that quantity. Chance is the scatter of the means among constant currents",
+        f"from {ALIKE:g} A on, whose mounts are nearly alike: tracks amplify the smallest difference, and a gain of",
+        "that size means nothing.",
         "",
         *_header("scenario", "quantity", "best constant, A", "over 1 A", "best law", "over 1 A", "over best", "chance"),
     ]

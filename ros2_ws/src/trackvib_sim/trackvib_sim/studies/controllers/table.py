@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..statistics import deviation, half_interval
 from .scenario import GOOD, PASSIVE, PASSIVE_CURRENT, QUANTITIES, SCENARIOS
 
 JUDGED = ("powertrain", "powertrain_wk", "hull", "hull_wk", "force", "travel")  # the less the better
@@ -37,11 +38,17 @@ class Gain(NamedTuple):
     """By how many percent a quantity is less, over the seeds, each compared with itself."""
 
     mean: float
-    scatter: float  # standard deviation over the seeds; not a number where there is one run
+    half: float  # of its 95 % interval by Student's t; not a number where there is one run
+
+    @property
+    def sure(self):
+        """Whether the interval excludes zero."""
+        return abs(self.mean) > self.half
 
     def text(self):
-        """Return it as a cell."""
-        return f"{self.mean:+.1f}" + (f" ± {self.scatter:.1f}" if np.isfinite(self.scatter) else "")
+        """Return it as a cell, bold where it is sure."""
+        text = f"{self.mean:+.1f}" + (f" ± {self.half:.1f}" if np.isfinite(self.half) else "")
+        return f"**{text}**" if self.sure else text
 
 
 class Verdict(NamedTuple):
@@ -75,7 +82,7 @@ def _row(key, results):
 def gain(row, reference, quantity):
     """Return the `Gain` of a row over another one of its scenario."""
     each = 100.0 * (1.0 - row.levels[quantity] / reference.levels[quantity])
-    return Gain(float(each.mean()), float(each.std()) if each.size > 1 else np.nan)
+    return Gain(float(each.mean()), half_interval(each))
 
 
 def chance(constants, quantity):
@@ -84,7 +91,7 @@ def chance(constants, quantity):
     Tracks amplify the smallest difference, so that the best of several rows is better by about this much for nothing.
     """
     means = [row.mean(quantity) for row in constants if row.current >= ALIKE]
-    return 100.0 * float(np.std(means, ddof=1) / np.mean(means)) if len(means) > 1 else np.nan
+    return 100.0 * float(deviation(means) / np.mean(means))
 
 
 def verdict(rows):
@@ -112,7 +119,7 @@ def table_csv(rows):
     columns = [*QUANTITIES, *(f"{name}_std" for name in QUANTITIES)]
     writer.writerow(["scenario", "law", "constant_current", *columns, "status"])
     for row in rows:
-        values = [part(row.levels[name]) for part in (np.mean, np.std) for name in QUANTITIES]
+        values = [part(row.levels[name]) for part in (np.mean, deviation) for name in QUANTITIES]
         cells = [f"{value:.6g}" if np.isfinite(value) else "" for value in values]
         current = "" if row.current is None else f"{row.current:g}"
         writer.writerow([row.scenario, row.law, current, *cells, "; ".join(row.failures) or GOOD])

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..case import GOOD
+from ..statistics import deviation
 from .case import CORRELATION, RESISTANCE, TENSIONERS
 from .measures import HIGH, ROAD_BORNE, THIRD_OCTAVES, band_name, levels, line_name, octave_name
 from .reference import RATE, ROUGH, references
@@ -64,7 +65,8 @@ def table_rows(found, pitch):
                 continue
             values = np.array([each.numbers.get(quantity, np.nan) for each in results])
             ours = np.sqrt(np.mean(values**2)) if quantity in theirs else values.mean()
-            rows.append(Row(variant, road, speed, quantity, float(ours), float(values.std()), theirs.get(quantity)))
+            scatter = float(deviation(values))
+            rows.append(Row(variant, road, speed, quantity, float(ours), scatter, theirs.get(quantity)))
     return rows
 
 

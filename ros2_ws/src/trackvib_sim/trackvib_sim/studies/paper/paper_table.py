@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..case import GOOD
+from ..statistics import deviation
 
 SENSORS = ("chassis", "powertrain")
 COLUMNS = tuple(f"{sensor}_{axis}" for sensor in SENSORS for axis in "xyz")
@@ -48,7 +49,7 @@ def _row(road_class, speed, results):
         return Row(road_class, speed, np.full(6, np.nan), np.full(6, np.nan), np.full(3, np.nan), status)
     values = np.array([[rms[sensor] for sensor in (*SENSORS, "rigid")] for rms in good])[..., PAPER_AXES]
     sensors = values[:, :2].reshape(len(good), 6)
-    return Row(road_class, speed, sensors.mean(axis=0), sensors.std(axis=0), values[:, 2].mean(axis=0), status)
+    return Row(road_class, speed, sensors.mean(axis=0), deviation(sensors), values[:, 2].mean(axis=0), status)
 
 
 def read_table(path):

@@ -60,7 +60,9 @@ def _levels(rows, paper):
 
 
 def _level(ours, scatter, theirs):
-    cell = f"{ours:.2f} ± {scatter:.2f}" if np.isfinite(ours) else "-"
+    cell = f"{ours:.2f}" if np.isfinite(ours) else "-"
+    if np.isfinite(scatter):
+        cell += f" ± {scatter:.2f}"
     return cell if theirs is None else f"{cell} ({theirs:.2f})"
 
 
