@@ -117,6 +117,7 @@ def test_recorder_keeps_an_absurd_stamp_as_it_came(start_node, observer, tmp_pat
     publisher = observer.node.create_publisher(Imu, "chassis/imu", LOOP_WRITER_QOS)
     recorder = start_node("recorder", bag=tmp_path / "bag", topics="[chassis/imu]")
     recorder.wait_for("recording 1 topics")
+    observer.wait_until(publisher.get_subscription_count)
     imu, absurd = ImuMessage("imu"), Imu()
     absurd.header.stamp.sec, absurd.header.frame_id = seconds, "absurd"
     absurd.linear_acceleration = Vector3(x=math.nan, y=math.inf, z=-math.inf)

@@ -14,11 +14,13 @@ from .documents import DOCUMENTS, ROOT, renew
 # By what part a number may differ, beside one unit of its last digit. Contacts of the tracks amplify rounding, which is
 # another one on another kind of processor. With a current changed by 1e-12 levels differ by up to 4 %, the work on the
 # mounts by 16 % and what they store by as much of that work, and 8 % of the elements of a run's picture; on the road of
-# another seed 14 % of them.
-SCATTER = {"run": 0.1, "study": 0.1}
+# another seed 14 % of them. With the stiffness of teeth changed by 1e-12, three times, single lines and third octaves
+# of the M113 differ by up to 18 %; which side of its goal a number near it falls on is then a matter of rounding, too.
+SCATTER = {"./trackvib run": 0.1, "./trackvib study table1": 0.1, "./trackvib study m113": 0.3}
 SCATTER_OF_WORK = 0.2  # of the largest number in the account
 ALIKE, ALIKE_IN_SCATTER = 2e-4, 0.1  # part of a picture's elements that may differ
 OF_THE_MOMENT = ("finished", "runs ", "pace:", "left in", "picture")  # lines of progress, pace and places
+BEYOND = "!"  # marks a number that is beyond its goal
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?%?")
 
 pytestmark = pytest.mark.system
@@ -50,14 +52,14 @@ def programs():
 
 
 def compared(text):
-    """Return what is to be compared: lines without those of the moment and without the frames of tables."""
-    lines = (re.sub(r"[\u2500-\u257f\s]+", " ", line).strip() for line in text.splitlines())
+    """Return what is to be compared: lines without those of the moment, frames of tables and marks of goals."""
+    lines = (re.sub(r"[\u2500-\u257f\s]+", " ", line.replace(BEYOND, "")).strip() for line in text.splitlines())
     return [line for line in lines if line and not line.startswith(("```", *OF_THE_MOMENT))]
 
 
 def scatter(block):
     """Return by what part numbers of a block's command may differ."""
-    return SCATTER.get(block.source.split()[1], 0.0)
+    return next((part for start, part in SCATTER.items() if block.source.startswith(start)), 0.0)
 
 
 def alike(shown, printed, scatter):

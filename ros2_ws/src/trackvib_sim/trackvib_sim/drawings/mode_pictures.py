@@ -67,4 +67,7 @@ def _boxes(model):
 def _displacement(mode, arms):
     x = mode.x.real[:, None]
     moved = x[..., :3] + np.cross(x[..., 3:], arms)
-    return LARGEST / np.linalg.norm(moved, axis=-1).max() * moved
+    size = np.abs(moved).max()
+    # a mode has no sign of its own: the first body that moves much does so forward, to the left or up
+    sign = np.sign(moved[np.abs(moved) > 0.5 * size][0])
+    return sign * LARGEST / np.linalg.norm(moved, axis=-1).max() * moved
