@@ -165,3 +165,23 @@ def m113(phases, scheduler, out):
         from ..studies.m113.study import run_m113  # imported late, as above
 
         run_m113(phases, scheduler, out)
+
+
+@study.command()
+@click.option(
+    "--speeds",
+    type=Several(FiniteRange(0.0, 25.0, min_open=True)),
+    default="2,5,8,10,12,15,20",
+    show_default=True,
+    metavar="V,V,...",
+    help="Speeds in m/s.",
+)
+@vehicle_option
+@_SCHEDULER
+@_out("resistance")
+def resistance(speeds, vehicle, scheduler, out):
+    """Force and power to roll on level ground, and where the heat goes."""
+    with _ends_in_one_line(out):
+        from ..studies.resistance.study import run_resistance  # imported late, as above
+
+        run_resistance(speeds, vehicle, scheduler, out)

@@ -29,6 +29,7 @@ DECISIVE = (  # modules that `drive` runs; all others may change without making 
     "studies/m113/measures.py",
     "studies/m113/reference.py",
     "studies/m113/variants.py",
+    "studies/resistance/case.py",
 )
 C, R = TypeVar("C"), TypeVar("R")
 

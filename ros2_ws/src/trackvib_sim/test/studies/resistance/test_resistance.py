@@ -1,0 +1,58 @@
+"""The resistance study: what drives is found again as heat, and the table says so."""
+
+import csv
+from io import StringIO
+
+import pytest
+from matplotlib.image import imread
+from trackvib_sim.studies.resistance.case import ResistanceCase, ResistanceResult, roll
+from trackvib_sim.studies.resistance.picture import resistance_picture
+from trackvib_sim.studies.resistance.table import FORMULAS, SINKS, force, mass_of, published, table_csv
+
+FAST = ResistanceCase(12.0)
+
+
+@pytest.fixture(scope="module")
+def rolled(vehicle):
+    """The shipped vehicle's result."""
+    return roll(vehicle, FAST)
+
+
+@pytest.mark.property
+def test_work_of_the_drive_is_found_again(rolled):
+    """To 2 % as heat of one part or another, none of which gives any; the speed is held."""
+    assert rolled.status == "ok" and rolled.speed == pytest.approx(12.0, rel=0.01)
+    assert list(rolled.heat) == list(SINKS) and min(rolled.heat.values()) >= 0.0
+    assert abs(rolled.left_over) < 0.02
+    assert sum(rolled.heat.values()) == pytest.approx(rolled.drive, rel=0.1)
+    assert rolled.drive > 1e5
+
+
+@pytest.mark.property
+def test_dry_bearings_take_force_and_oil_does_not(vehicle, rolled, changed):
+    """Without viscous friction of the pins the pins take nothing; the vehicle rolls easier."""
+    easy = roll(changed("tracks", pin_damping=0.0), FAST)
+    assert force(easy) < force(rolled)
+    assert easy.heat["links"] < rolled.heat["links"]
+
+
+@pytest.mark.analytic
+def test_formulas_by_hand(vehicle):
+    """At 10 m/s, 36 km/h: 330 and 223 N a tonne; the vehicle has 42.1 t."""
+    assert mass_of(vehicle) == pytest.approx(42_130.0, rel=1e-3)
+    assert list(published(1000.0, 10.0).values()) == pytest.approx([330.0, 223.0])
+
+
+@pytest.mark.property
+def test_table_and_picture(rolled, tmp_path):
+    """A row for each speed, failed ones with their reason; forces in N."""
+    failed = ResistanceResult("failed: it fell", None, None, {}, None)
+    found = {FAST: rolled, ResistanceCase(25.0): failed}
+    one, two = csv.DictReader(StringIO(table_csv(found, 42_130.0)))
+    assert float(one["force, N"]) == pytest.approx(force(rolled), rel=1e-4)
+    assert float(one["power, W"]) == pytest.approx(rolled.drive, rel=1e-4) and one["status"] == "ok"
+    assert (
+        two["force, N"] == "" and two["status"] == "failed: it fell" and float(two[f"formula {[*FORMULAS][0]}, N"]) > 0
+    )
+    resistance_picture(found, 42_130.0, "made up", tmp_path / "picture.png")
+    assert imread(tmp_path / "picture.png").shape[2] == 4

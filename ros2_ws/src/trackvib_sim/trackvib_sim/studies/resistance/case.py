@@ -1,0 +1,71 @@
+"""One case of the study: a vehicle at constant speed on level ground, its energy booked step by step."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...simulation.run_in import CannotRoll
+from ...simulation.settings import Rates, RunSettings
+from ...simulation.simulation import RunFailed, Simulation
+from ...vehicle.energy import EnergyMeter, Part, Source, energy
+from ...vehicle.step_size import recommended_rate
+from ...vehicle.system import Operation
+from ..case import GOOD, settling
+
+MEASURING = 1.0  # s
+AROUND = 30.0  # m of road before and behind a vehicle
+SPACING = 0.5  # m
+TRACK_PHASE = 0.25  # neither in step nor in opposition
+CURRENT = 1.0  # A
+
+
+@dataclass(frozen=True)
+class ResistanceCase:
+    """What distinguishes one run from the next."""
+
+    speed: float  # m/s
+
+
+@dataclass(frozen=True)
+class ResistanceResult:
+    """What a case gave; plain values."""
+
+    status: str  # `GOOD`, or "failed: " and why
+    speed: float | None  # m/s, mean
+    drive: float | None  # W, mean power of the sprockets' drive
+    heat: dict[str, float]  # W by the names of `Part` in small letters; empty where failed
+    left_over: float | None  # part of the drive's work that is neither heat nor held
+
+
+def roll(vehicle, case):
+    """Run a case and return its `ResistanceResult`; a run that leaves the valid range is a result, too."""
+    rate = max(Rates().physics, recommended_rate(vehicle))
+    operation = Operation(case.speed, 0.0, False, TRACK_PHASE)
+    try:
+        # a control period of one step, so that the meter can look at each
+        simulation = Simulation(vehicle, RunSettings(operation, Rates(rate, rate, rate), CURRENT))
+        settled = round(settling(case.speed) * rate)
+        way = case.speed * (settled / rate + MEASURING) + 2.0 * AROUND
+        simulation.road.add(simulation.distance - AROUND, SPACING, *np.zeros((2, round(way / SPACING))))
+        current = np.full(simulation.mounting.coils, CURRENT)
+        for _ in range(settled):
+            simulation.advance(current)
+        return _booked(simulation, current, round(MEASURING * rate))
+    except (CannotRoll, RunFailed) as error:
+        return ResistanceResult(f"failed: {error}", None, None, {}, None)
+
+
+def _booked(simulation, current, steps):
+    meter, held, speed, drive, heat = EnergyMeter(simulation.system), [], 0.0, 0.0, np.zeros(len(Part))
+    road = simulation.road.around(simulation.distance - 0.5 * AROUND, simulation.distance + 0.5 * AROUND)
+    for _ in range(steps):
+        meter.open(simulation.state)
+        simulation.advance(current)
+        meter.close(simulation.state, road)
+        heat += meter.account.dissipation / steps
+        drive += float(meter.account.given[Source.DRIVER]) / steps
+        speed += float(simulation.sample.hull_velocity[0, 0]) / steps
+        held.append(energy(meter.account))
+    by_name = dict(zip((part.name.lower() for part in Part), heat.tolist(), strict=True))
+    left_over = drive - heat.sum() - (held[-1] - held[0]) / MEASURING
+    return ResistanceResult(GOOD, speed, drive, by_name, float(left_over / drive))
