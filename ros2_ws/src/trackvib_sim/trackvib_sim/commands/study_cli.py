@@ -110,7 +110,7 @@ def figures(vehicle, scheduler, out):
 @click.option(
     "--seeds",
     type=click.IntRange(1, 1000),
-    default=3,
+    default=8,
     show_default=True,
     help="Runs a law and scenario that varies, each with its own road and track phase.",
 )

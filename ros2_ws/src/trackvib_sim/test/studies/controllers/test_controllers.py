@@ -21,7 +21,7 @@ from trackvib_sim.studies.controllers.scenario import (
     control,
 )
 from trackvib_sim.studies.controllers.study import GRID, cases, controllers
-from trackvib_sim.studies.controllers.table import JUDGED, gain, table_csv, table_rows, verdict
+from trackvib_sim.studies.controllers.table import JUDGED, Row, best_by_others, gain, table_csv, table_rows, verdict
 from trackvib_sim.studies.run_missing import run_missing
 
 BUMP = ControlCase("bump", 1, 0.3, PASSIVE)
@@ -76,6 +76,18 @@ def test_cases_are_laws_and_constant_currents():
 
 
 @pytest.mark.property
+def test_no_seed_judges_its_own_choice():
+    """Of two rows that win by chance on one seed each, the others choose the third."""
+    levels = {"a": (0.1, 1.0, 1.0), "b": (1.0, 0.1, 1.0), "c": (0.6, 0.6, 0.6)}
+    rows = [Row("e10", name, None, {"force": np.array(each)}, []) for name, each in levels.items()]
+    # without the first seed b has the least, without the second a, without the third both have as little
+    assert best_by_others(rows, "force").tolist() == [1.0, 1.0, 1.0]
+    assert best_by_others(rows[2:], "force").tolist() == [0.6, 0.6, 0.6]
+    single = [row._replace(levels={"force": row.levels["force"][:1]}) for row in rows]
+    assert best_by_others(single, "force").tolist() == [0.1]
+
+
+@pytest.mark.property
 def test_verdict_compares_each_seed_with_itself():
     """A law at 0.56 against 1 and 0.7: 44 % and 20 % at every seed, without scatter though levels differ by two."""
     rows = table_rows(made_up())
@@ -88,7 +100,7 @@ def test_verdict_compares_each_seed_with_itself():
             assert ours == pytest.approx((expected, scatter), abs=1e-9, nan_ok=True)
             assert ours.text() == (f"**{expected:+.1f} ± 0.0**" if each.scenario == "e10" else f"{expected:+.1f}")
         assert each.chance == pytest.approx(100.0 * np.std((2.5, 3.0, 3.5, 4.0), ddof=1) / 3.25)
-    worse = gain(next(row for row in rows if row.current == 2.0), rows[0], "force")
+    worse = gain(*(row.levels["force"] for row in (next(row for row in rows if row.current == 2.0), rows[0])))
     assert worse.mean < -100.0
 
 

@@ -79,10 +79,24 @@ def _row(key, results):
     return Row(*key, levels, [each.status for each in results if each.status != GOOD])
 
 
-def gain(row, reference, quantity):
-    """Return the `Gain` of a row over another one of its scenario."""
-    each = 100.0 * (1.0 - row.levels[quantity] / reference.levels[quantity])
+def gain(levels, reference):
+    """Return the `Gain` of levels (seeds,) over others of the same seeds."""
+    each = 100.0 * (1.0 - levels / reference)
     return Gain(float(each.mean()), half_interval(each))
+
+
+def best_by_others(rows, quantity):
+    """Return a quantity's levels (seeds,), each that of the row with the least mean over all other seeds.
+
+    The best of many rows is better on the seeds that it was chosen by for nothing; so each seed judges what the others
+    have chosen. A single run has to do both.
+    """
+    levels = np.array([row.levels[quantity] for row in rows])
+    count = levels.shape[1]
+    if count == 1:
+        return levels.min(axis=0)
+    others = levels.sum(axis=1, keepdims=True) - levels
+    return levels[others.argmin(axis=0), np.arange(count)]
 
 
 def chance(constants, quantity):
@@ -104,9 +118,11 @@ def verdict(rows):
         if PASSIVE_CURRENT not in constants or not laws:
             continue
         for quantity in JUDGED:
-            constant, law = (min(them, key=lambda row: row.mean(quantity)) for them in (constants.values(), laws))
-            passive = constants[PASSIVE_CURRENT]
-            gains = (gain(constant, passive, quantity), gain(law, passive, quantity), gain(law, constant, quantity))
+            groups = list(constants.values()), laws
+            constant, law = (min(them, key=lambda row: row.mean(quantity)) for them in groups)
+            passive = constants[PASSIVE_CURRENT].levels[quantity]
+            of_constant, of_law = (best_by_others(them, quantity) for them in groups)
+            gains = gain(of_constant, passive), gain(of_law, passive), gain(of_law, of_constant)
             noise = chance(constants.values(), quantity)
             found.append(Verdict(scenario, quantity, constant.current, gains[0], law.law, *gains[1:], noise))
     return found
