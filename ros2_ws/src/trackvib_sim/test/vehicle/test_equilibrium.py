@@ -132,17 +132,13 @@ def test_vehicle_that_topples_is_refused(changed, axis, centre):
 
 @pytest.mark.property
 def test_new_state_is_all_zero(system):
-    """A new state has every coordinate, node and current at zero and the hull upright."""
+    """A new state has every coordinate, node, current and field at zero, none yields, and the hull is upright."""
     state = new_state(system)
     assert state.tree.attitude.tolist() == [[1.0, 0.0, 0.0, 0.0]]
+    fields = state.fields
+    assert np.isinf(fields.limit).all()
     alone = (state.tracks.nodes, state.crank_angle, state.speed_integral, state.flight)
-    for part in (
-        *state.tree[:1],
-        *state.tree[2:],
-        *state.tracks.tensioner,
-        *state.coils,
-        *state.fields,
-        *alone,
-        *state.mount_energy,
-    ):
+    springs = fields.place, fields.force, fields.stiffness
+    records = (*state.tree[:1], *state.tree[2:], *state.tracks.tensioner, *state.coils, *springs)
+    for part in (*records, *alone, *state.mount_energy):
         assert not part.any()
