@@ -44,6 +44,13 @@ def _out(default, words="Folder of the study; finished runs in it are not done a
     return click.option("--out", type=click.Path(file_okay=False), default=default, show_default=True, help=words)
 
 
+def _speeds(default):
+    """The option for the speeds of a study's runs."""
+    kind = Several(FiniteRange(0.0, 25.0, min_open=True))
+    words = "Speeds in m/s."
+    return click.option("--speeds", type=kind, default=default, show_default=True, metavar="V,V,...", help=words)
+
+
 @study.command()
 @click.option(
     "--classes",
@@ -53,14 +60,7 @@ def _out(default, words="Folder of the study; finished runs in it are not done a
     metavar="A,B,...",
     help="Classes of the road by ISO 8608.",
 )
-@click.option(
-    "--speeds",
-    type=Several(FiniteRange(0.0, 25.0, min_open=True)),
-    default="5,10,20",
-    show_default=True,
-    metavar="V,V,...",
-    help="Speeds in m/s.",
-)
+@_speeds("5,10,20")
 @click.option(
     "--seeds",
     type=click.IntRange(1, 1000),
@@ -168,14 +168,7 @@ def m113(phases, scheduler, out):
 
 
 @study.command()
-@click.option(
-    "--speeds",
-    type=Several(FiniteRange(0.0, 25.0, min_open=True)),
-    default="2,5,8,10,12,15,20",
-    show_default=True,
-    metavar="V,V,...",
-    help="Speeds in m/s.",
-)
+@_speeds("2,5,8,10,12,15,20")
 @vehicle_option
 @_SCHEDULER
 @_out("resistance")

@@ -1,5 +1,8 @@
 """All cases of a study: those that are in its store already, and the others done on many cores."""
 
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
+
+from ..console import Description
 from .case import drive
 from .workers import results, workers
 
@@ -34,3 +37,12 @@ def run_missing(vehicle, cases, store, scheduler, progress, description, run=dri
                 found[case] = result
                 progress.advance(task)
     return found
+
+
+def run_shown(vehicle, cases, store, folder, console, scheduler, run=drive):
+    """Return what `run_missing` does, with a bar on the `console`, and a line on runs in `folder` that do not count."""
+    if store.foreign:
+        console.print(f"{store.foreign} runs in {folder} are of another vehicle or version and are not used")
+    columns = (Description(), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console) as progress:
+        return run_missing(vehicle, cases, store, scheduler, progress, "runs", run)

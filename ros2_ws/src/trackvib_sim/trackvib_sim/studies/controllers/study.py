@@ -6,16 +6,15 @@ from pathlib import Path
 
 import mr_mount_controller
 from mr_mount_controller.laws import find_law, known_laws
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 from rich.table import Table
 
-from ...console import Description, Terminal
+from ...console import Terminal
 from ...data import find_vehicle
 from ...new_files import new_file
 from ...vehicle.vehicle_file import read_vehicle
 from ..case_store import CaseStore
 from ..paper.table1 import track_phase
-from ..run_missing import run_missing
+from ..run_missing import run_shown
 from .picture import controllers_picture
 from .report import report
 from .scenario import PASSIVE, PASSIVE_CURRENT, SCENARIOS, ControlCase, ControlResult, control
@@ -49,11 +48,7 @@ def run_controllers(laws, scenarios, seeds, vehicle_file, scheduler, out):
     vehicle, text = read_vehicle(path)
     folder, console = Path(out), Terminal()
     store = CaseStore(folder / "cases", text + controllers(classes), ControlCase, ControlResult)
-    if store.foreign:
-        console.print(f"{store.foreign} runs in {folder} are of another vehicle or version and are not used")
-    columns = (Description(), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=console) as progress:
-        found = run_missing(vehicle, cases(laws, scenarios, seeds), store, scheduler, progress, "runs", control)
+    found = run_shown(vehicle, cases(laws, scenarios, seeds), store, folder, console, scheduler, control)
     rows = table_rows(found)
     with new_file(folder / "controllers.csv") as file:
         file.write(table_csv(rows).encode())

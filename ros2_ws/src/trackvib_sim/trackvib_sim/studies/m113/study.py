@@ -2,10 +2,9 @@
 
 from pathlib import Path
 
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 from rich.table import Table
 
-from ...console import Description, Terminal
+from ...console import Terminal
 from ...data import find_vehicle
 from ...new_files import new_file
 from ...rui.linear.modes import describe, modes
@@ -13,7 +12,7 @@ from ...vehicle.linear_vehicle import build_linear_vehicle
 from ...vehicle.system import Operation, build_system
 from ...vehicle.vehicle_file import read_vehicle
 from ..case_store import CaseStore
-from ..run_missing import run_missing
+from ..run_missing import run_shown
 from .case import RATES, M113Case, M113Result, drive_m113
 from .picture import m113_picture
 from .reference import references
@@ -44,11 +43,7 @@ def run_m113(phases, scheduler, out):
     vehicle, text = read_vehicle(find_vehicle(VEHICLE))
     folder, console = Path(out), Terminal()
     store = CaseStore(folder / "cases", text, M113Case, M113Result)
-    if store.foreign:
-        console.print(f"{store.foreign} runs in {folder} are of another vehicle or version and are not used")
-    columns = (Description(), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=console) as progress:
-        found = run_missing(vehicle, cases(phases), store, scheduler, progress, "runs", drive_m113)
+    found = run_shown(vehicle, cases(phases), store, folder, console, scheduler, drive_m113)
     rows = table_rows(found, vehicle.tracks.pitch)
     loads = standing_wheel_loads(vehicle), reference_wheel_loads()
     with new_file(folder / "m113.csv") as file:

@@ -4,16 +4,15 @@ from math import sqrt
 from pathlib import Path
 
 import numpy as np
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 from rich.table import Table
 
-from ...console import Description, Terminal
+from ...console import Terminal
 from ...data import find_vehicle, paper_table_file
 from ...new_files import new_file
 from ...vehicle.vehicle_file import read_vehicle
 from ..case import BAND, GOOD, Case
 from ..case_store import CaseStore
-from ..run_missing import run_missing
+from ..run_missing import run_shown
 from .paper_table import error_factor, given, read_table, table_csv, table_rows
 from .table1_picture import table_picture
 from .table1_report import report
@@ -46,11 +45,7 @@ def run_table1(classes, speeds, seeds, vehicle_file, scheduler, out):
     paper = read_table(paper_table_file())
     folder, console = Path(out), Terminal()
     store = CaseStore(folder / "cases", text)
-    if store.foreign:
-        console.print(f"{store.foreign} runs in {folder} are of another vehicle or version and are not used")
-    columns = (Description(), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=console) as progress:
-        found = run_missing(vehicle, cases(classes, speeds, seeds), store, scheduler, progress, "runs")
+    found = run_shown(vehicle, cases(classes, speeds, seeds), store, folder, console, scheduler)
     rows = table_rows(found)
     with new_file(folder / "table1.csv") as file:
         file.write(table_csv(rows).encode())

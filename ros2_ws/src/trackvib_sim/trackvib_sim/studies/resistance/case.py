@@ -8,9 +8,8 @@ from ...simulation.run_in import CannotRoll
 from ...simulation.settings import Rates, RunSettings
 from ...simulation.simulation import RunFailed, Simulation
 from ...vehicle.energy import EnergyMeter, Part, Source, energy
-from ...vehicle.step_size import recommended_rate
 from ...vehicle.system import Operation
-from ..case import GOOD, settling
+from ..case import GOOD, rates_for, settling
 
 MEASURING = 1.0  # s
 AROUND = 30.0  # m of road before and behind a vehicle
@@ -39,7 +38,7 @@ class ResistanceResult:
 
 def roll(vehicle, case):
     """Run a case and return its `ResistanceResult`; a run that leaves the valid range is a result, too."""
-    rate = max(Rates().physics, recommended_rate(vehicle))
+    rate = rates_for(vehicle).physics
     operation = Operation(case.speed, 0.0, False, TRACK_PHASE)
     try:
         # a control period of one step, so that the meter can look at each

@@ -2,17 +2,16 @@
 
 from pathlib import Path
 
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 from rich.table import Table
 
-from ...console import Description, Terminal
+from ...console import Terminal
 from ...data import find_vehicle
 from ...new_files import new_file
 from ...vehicle.body_tree import GRAVITY
 from ...vehicle.vehicle_file import read_vehicle
 from ..case import GOOD
 from ..case_store import CaseStore
-from ..run_missing import run_missing
+from ..run_missing import run_shown
 from .case import ResistanceCase, ResistanceResult, roll
 from .picture import resistance_picture
 from .table import force, mass_of, published, table_csv
@@ -39,12 +38,8 @@ def run_resistance(speeds, vehicle_file, scheduler, out):
     vehicle, text = read_vehicle(find_vehicle(vehicle_file))
     folder, console = Path(out), Terminal()
     store = CaseStore(folder / "cases", text, ResistanceCase, ResistanceResult)
-    if store.foreign:
-        console.print(f"{store.foreign} runs in {folder} are of another vehicle or version and are not used")
-    columns = (Description(), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=console) as progress:
-        cases = [ResistanceCase(speed) for speed in speeds]
-        found = run_missing(vehicle, cases, store, scheduler, progress, "runs", roll)
+    cases = [ResistanceCase(speed) for speed in speeds]
+    found = run_shown(vehicle, cases, store, folder, console, scheduler, roll)
     found, mass = {case: found[case] for case in cases}, mass_of(vehicle)
     title = f"Running resistance of {vehicle.name}, {mass / KILO:.1f} t, on level ground"
     with new_file(folder / "resistance.csv") as file:
