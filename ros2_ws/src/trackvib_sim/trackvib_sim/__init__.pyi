@@ -2,6 +2,7 @@
 from .data import find_vehicle as find_vehicle
 from .data import vehicle_names as vehicle_names
 from .vehicle.parameters import Vehicle as Vehicle
+from .vehicle.sensors import Instrument as Instrument
 from .vehicle.sensors import Sensor as Sensor
 from .vehicle.system import Operation as Operation
 from .vehicle.vehicle_file import VehicleFileError as VehicleFileError
@@ -9,7 +10,9 @@ from .vehicle.vehicle_file import read_vehicle as read_vehicle
 
 # roads
 from .road.bump import Bump as Bump
+from .road.iso8608 import Exponential as Exponential
 from .road.iso8608 import Iso8608Road as Iso8608Road
+from .road.iso8608 import Isotropic as Isotropic
 
 # simulation; control laws come from `mr_mount_controller.laws`
 from .simulation.closed_loop import Record as Record

@@ -9,10 +9,11 @@ from ..mounting import PAIR
 
 
 class Sample(NamedTuple):
-    """What both inertial sensors measured over one period, in the axes of their bodies (x forward, y left, z up).
+    """What both inertial sensors read at the end of a period, in the axes of their bodies (x forward, y left, z up).
 
     Specific force is acceleration less gravity (REP-145): +9.81 m/s^2 along z at rest. Where the mounts are from there
-    tells `ControlLaw.mounting`. All are plain floats, finite, and means over the period.
+    tells `ControlLaw.mounting`. All are plain floats and finite; what is faster
+    than the sensors' low-pass is gone.
 
     Examples
     --------

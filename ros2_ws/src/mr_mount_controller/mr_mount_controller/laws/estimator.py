@@ -87,8 +87,8 @@ def _limited(rate):
 class VerticalMotion:
     """Vertical acceleration and velocity of one sensor; parameters as for `MotionEstimator`.
 
-    Both first-order filters are discretised exactly for an input that is constant over a period, which is what a
-    sample, the mean over its period, is.
+    Both first-order filters are discretised exactly for an input that is constant over a period: a sample stands for
+    the whole of its period.
     """
 
     def __init__(self, period, corner):

@@ -58,7 +58,7 @@ TOPICS = (
         IMU_TYPE,
         "simulator",
         "1 kHz",
-        "Lower (hull) end of the mounts: specific force and angular velocity, mean over the period, body axes.",
+        "Lower (hull) end of the mounts: specific force and angular velocity through the low-pass, body axes.",
     ),
     Topic(
         POWERTRAIN_IMU,
@@ -72,7 +72,7 @@ TOPICS = (
         IMU_TYPE,
         "simulator",
         "1 kHz over the sensor's divisor",
-        "Each further sensor of the vehicle file by its name, mean over its periods.",
+        "Each further sensor of the vehicle file by its name, likewise.",
     ),
     Topic(
         COIL_CURRENT,

@@ -6,21 +6,24 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.testing import assert_array_equal
+from numpy.testing import assert_allclose, assert_array_equal
 from scipy import signal
-from trackvib_sim.road.iso8608 import CLASSES, SPACING, Iso8608Road, coherence, roughness
+from trackvib_sim.road.iso8608 import CLASSES, SPACING, Exponential, Iso8608Road, Isotropic, roughness
 
 LENGTH = 20_000  # samples, 1 km
 SEEDS = range(5)
 OCTAVES = [(0.03 * 2.0**k, 0.06 * 2.0**k) for k in range(6)]  # 1/m, up to 1.92
 
 
+COHERENCES = [Isotropic(), Isotropic(1.0), Exponential(1.4)]
+
+
 @cache
-def spectra():
+def spectra(coherence=COHERENCES[0]):
     """Frequencies and the averaged PSDs of left and right and their cross PSD, class C, over all seeds."""
     parts = []
     for seed in SEEDS:
-        left, right = Iso8608Road("C", seed, -10.0, 1.0).heights(0, LENGTH)
+        left, right = Iso8608Road("C", seed, -10.0, 1.0, coherence).heights(0, LENGTH)
         options = {"fs": 1.0 / SPACING, "nperseg": 4000}  # 200 m: bins of 0.005 1/m
         frequency, ll = signal.welch(left, **options)
         parts.append((ll, signal.welch(right, **options)[1], signal.csd(left, right, **options)[1]))
@@ -62,13 +65,14 @@ def test_octaves_have_the_power_of_the_class(low, high):
 
 @pytest.mark.slow(reason="averages long roads")
 @pytest.mark.analytic
+@pytest.mark.parametrize("coherence", COHERENCES, ids=str)
 @pytest.mark.parametrize(("low", "high"), OCTAVES)
-def test_left_and_right_are_coherent_as_stated(low, high):
-    """In every octave the cross spectrum over the power is exp(-1.4 n), real.
+def test_left_and_right_are_coherent_as_stated(low, high, coherence):
+    """In every octave the cross spectrum over the power is as stated, real.
 
     Bound: four standard deviations of a cross spectrum of signals of equal power, and 5 % for leakage.
     """
-    frequency, ll, rr, lr = spectra()
+    frequency, ll, rr, lr = spectra(coherence)
     band = (frequency >= low) & (frequency < high)
     weight = roughness("C", frequency[band])
     expected = np.sum(weight * coherence(frequency[band])) / np.sum(weight)
@@ -76,6 +80,16 @@ def test_left_and_right_are_coherent_as_stated(low, high):
     bound = 4.0 * spread(low, high) + 0.05
     assert got.real == pytest.approx(expected, abs=bound)
     assert got.imag == pytest.approx(0.0, abs=bound)
+
+
+@pytest.mark.literature
+def test_isotropic_coherence_is_that_of_a_surface():
+    """x K1(x) at x = 1 and 2 as tabulated (Abramowitz and Stegun, table 9.8), 1 on one line, 0 far away."""
+    distance = 2.8
+    found = Isotropic(distance)(np.array([1.0, 2.0]) / (2.0 * np.pi * distance))
+    assert_allclose(found, [0.60190723, 2.0 * 0.13986588], rtol=1e-7)
+    assert Isotropic(0.0)(np.geomspace(0.01, 10.0, 5)).tolist() == [1.0] * 5
+    assert Isotropic(100.0)(1.0) == 0.0
 
 
 @pytest.mark.property

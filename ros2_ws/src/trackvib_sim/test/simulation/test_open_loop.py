@@ -45,11 +45,23 @@ def test_run_is_that_of_the_passive_law(rolling, record, rough):
 
 
 def test_probes_change_nothing(rolling, record, rough):
-    """With a probe the mounts feel the same; the probe comes behind them."""
+    """With a probe the mounts feel the same."""
     probed = run_open_loop(rolling((Probe("turret", (1.0, 0.5, 0.2)),)), rough, PERIODS)
     assert probed.specific_force[:, :2].tobytes() == record.specific_force.tobytes()
     assert probed.speed.tobytes() == record.speed.tobytes()
-    assert np.ptp(probed.specific_force[:, 2, 2]) > 0.1
+    assert np.ptp(probed.probed[:, 0, 2]) > 0.1
+
+
+def test_probes_have_a_row_a_physics_step(rolling, rough):
+    """Where a sensor is, a probe meets the same before any low-pass, in the closed loop to the last bit as well."""
+    moving = rolling()
+    place = Probe("hull", moving.sensors[0].place)
+    steps, periods = moving.settings.rates.steps, 50
+    open_loop = run_open_loop(rolling((place,)), rough, periods)
+    closed = run_closed_loop(rolling((place,)), rough, Passive(1e-3), periods)
+    assert open_loop.probed.shape == (periods * steps, 1, 3)
+    assert open_loop.probed.tobytes() == closed.probed.tobytes()
+    assert len(np.unique(open_loop.probed[:, 0, 2])) == periods * steps
 
 
 def test_progress_rises_to_the_end(rolling, rough):

@@ -69,13 +69,13 @@ def test_shock_absorber_blows_off(vehicle, system, speed):
 @pytest.mark.property
 @given(angle=ANGLES, rate=RATES)
 def test_only_the_stations_of_the_file_have_shock_absorbers(vehicle, system, angle, rate):
-    """Against an arm without, an arm with a shock absorber has its force times the arm's length more."""
+    """Against an arm without, an arm with a shock absorber has its force times the arm's reach along x more."""
     left = torques(system, angle, rate)[:6]
     carriers = [station for station, damping in enumerate(vehicle.shock_absorbers.damping) if damping > 0.0]
     assert carriers == [0, 1, 5]
     bare = [i for i in range(6) if i not in carriers]
-    length = vehicle.swing_arms.length
-    extra = length * shock_force(system.suspension, 0, length * rate)
+    reach = vehicle.swing_arms.length * np.cos(np.radians(vehicle.swing_arms.static_angle))
+    extra = reach * shock_force(system.suspension, 0, reach * rate)
     assert np.ptp(left[bare]) == 0.0
     # torques up to 1e5 N m at the stop
     assert_allclose(left[carriers], left[bare[0]] - extra, rtol=1e-12, atol=1e-9)
@@ -102,13 +102,25 @@ def test_bump_stop_only_pushes(system, angle, rate):
 
 @pytest.mark.analytic
 def test_bump_stop_pushes_beyond_its_travel(vehicle, system, rows, moved):
-    """The stop begins where the wheel has risen by bump_travel, and has its stiffness at a wheel level with the arm."""
+    """The stop begins where the wheel has risen by bump_travel, and has its stiffness at the wheel at ride height."""
     stop = system.suspension.stop_angle[0]
     rise = wheel_height(system, rows, moved, stop) - wheel_height(system, rows, moved, 0.0)
     assert rise == pytest.approx(vehicle.swing_arms.bump_travel[0], abs=1e-12)
     free = system._replace(suspension=system.suspension._replace(stop_angle=np.full(12, 10.0)))
     extra = torques(system, stop + 0.01, 0.0) - torques(free, stop + 0.01, 0.0)
-    assert_allclose(extra, -vehicle.swing_arms.bump_stiffness[0] * vehicle.swing_arms.length**2 * 0.01, rtol=1e-9)
+    reach = vehicle.swing_arms.length * np.cos(np.radians(vehicle.swing_arms.static_angle))
+    assert_allclose(extra, -vehicle.swing_arms.bump_stiffness[0] * reach**2 * 0.01, rtol=1e-9)
+
+
+@pytest.mark.analytic
+def test_damping_is_along_the_same_direction_as_the_rate(vehicle, system, rows, moved):
+    """At ride height the power of a shock absorber and of friction is that of their rates at the wheel's rise."""
+    small, rate = 1e-6, 0.1
+    climb = wheel_height(system, rows, moved, small) - wheel_height(system, rows, moved, -small)
+    speed = climb / (2.0 * small) * rate
+    power = (torques(system, 0.0, 0.0) - torques(system, 0.0, rate))[0] * rate
+    damping = vehicle.swing_arms.friction[0] + vehicle.shock_absorbers.damping[0]
+    assert power == pytest.approx(damping * speed**2, rel=1e-6)
 
 
 @pytest.mark.property

@@ -125,7 +125,7 @@ BAD = [
     ("hinge: prismatic", "hinge: sliding", ("bodies.recoil_part", "'sliding'", "'prismatic'")),
     ("kind: mr", "kind: steel", ("mount_types.mr", "'steel'", "'mr', 'rubber'")),
     ("  left:\n    type: mr", "  left:\n    type: firm", ("mounts.left: type is 'firm'", "must be one of mr")),
-    ("format: 2", "format: 3", ("format is 3", "should be 2")),
+    ("format: 3", "format: 4", ("format is 4", "should be 3")),
 ]  # fmt: skip
 
 

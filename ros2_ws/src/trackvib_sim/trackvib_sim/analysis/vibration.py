@@ -11,12 +11,15 @@ def band(rate):
     return LOWEST, 0.5 * rate
 
 
-def band_limited(acceleration, rate):
-    """Return accelerations (k, 3) with everything below the band removed, without shifting phases.
+def band_limited(acceleration, rate, highest=None):
+    """Return accelerations (k, ...) with everything below the band removed, without shifting phases.
 
-    Second-order Butterworth high-pass, run forwards and backwards; the upper end of the band is the Nyquist frequency.
+    Second-order Butterworth high-pass, run forwards and backwards. The upper end of the band is the Nyquist frequency,
+    or `highest` [Hz] by a low-pass of eighth order, likewise.
     """
     sections = signal.butter(2, LOWEST, "highpass", fs=rate, output="sos")
+    if highest is not None:
+        sections = np.vstack((sections, signal.butter(8, highest, fs=rate, output="sos")))
     # mirrored at the ends: an odd continuation would turn about the last value, which is mostly vibration
     ends = min(len(acceleration) - 1, round(2.0 * rate / LOWEST))
     return signal.sosfiltfilt(sections, acceleration, axis=0, padtype="even", padlen=ends)

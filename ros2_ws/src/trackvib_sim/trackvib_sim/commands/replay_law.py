@@ -93,7 +93,7 @@ def _drive(recording, simulation, chosen, law, path, console):
                 ended = f"the recorded road ends here: {simulation.distance:.1f} m, t = {simulation.time / NANO:.3f} s"
                 break
             try:
-                lockstep = next(loop)
+                lockstep, _ = next(loop)
             except RunFailed as failure:
                 ended = f"the run failed: {failure}"
                 break

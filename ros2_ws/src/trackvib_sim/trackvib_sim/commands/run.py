@@ -94,7 +94,7 @@ def run_loop(choices, out):
         recommended = recommended_rate(vehicle)
         if choices.physics_rate < recommended:
             console.print(f"warning: --physics-rate {choices.physics_rate} is below the recommended {recommended} Hz")
-        interrupt = _run_nodes(choices, path, folder, console)
+        interrupt = _run_nodes(choices, path, 2.0 * vehicle.road_wheels.y, folder, console)
     try:
         lacking = _evaluate(choices, folder, console)
     except (BagError, ValueError) as error:
@@ -125,10 +125,13 @@ def own_domain():
         yield
 
 
-def _run_nodes(choices, vehicle, folder, console):
-    """Run the nodes to the end; returns the KeyboardInterrupt that cut them short, or None."""
+def _run_nodes(choices, vehicle, tread, folder, console):
+    """Run the nodes to the end; returns the KeyboardInterrupt that cut them short, or None.
+
+    `vehicle` is the path of its file, `tread` the distance between its tracks [m].
+    """
     overrides = {
-        "road_excitation": {"road_class": choices.road_class, "seed": choices.seed},
+        "road_excitation": {"road_class": choices.road_class, "seed": choices.seed, "track_distance": tread},
         "controller": {"law": choices.law},
         "recorder": {"bag": str(folder / "bag")},
         "simulator": {

@@ -11,11 +11,14 @@ from nav_msgs.msg import Odometry
 from trackvib_msgs.msg import RoadProfile
 
 from ..road.feeder import RoadFeeder
-from ..road.iso8608 import CLASSES, FADE, LEVEL_UNTIL, Iso8608Road
+from ..road.iso8608 import CLASSES, FADE, LEVEL_UNTIL, TREAD, Exponential, Iso8608Road, Isotropic
 
 PARAMETERS = (
     Parameter("road_class", "E", "Class of the road by ISO 8608.", choices=tuple(CLASSES)),
     Parameter("seed", 1, "Seed of the profile; the same seed gives the same road.", "", 0, 10**9),
+    Parameter("coherence", "isotropic", "Of left and right, over frequency.", choices=("isotropic", "exponential")),
+    Parameter("track_distance", TREAD, "Distance of left and right on an isotropic surface.", "m", 0.0, 10.0),
+    Parameter("coherence_length", 1.4, "Length l of a coherence exp(-l n).", "m", 0.0, 100.0),
     Parameter("level_until", LEVEL_UNTIL, "Distance up to which the road is level.", "m", -1000.0, 1e6),
     Parameter("fade", FADE, "Distance over which the roughness then fades in.", "m", 0.1, 1000.0),
     Parameter("horizon", 50.0, "Distance ahead of the vehicle that is always published.", "m", 10.0, 200.0),
@@ -29,7 +32,9 @@ class RoadExcitationNode(LoopNode):
     def __init__(self):
         super().__init__("road_excitation", PARAMETERS)
         s = self.settings
-        self._road = Iso8608Road(s["road_class"], s["seed"], s["level_until"], s["fade"])
+        isotropic = s["coherence"] == "isotropic"
+        coherence = Isotropic(s["track_distance"]) if isotropic else Exponential(s["coherence_length"])
+        self._road = Iso8608Road(s["road_class"], s["seed"], s["level_until"], s["fade"], coherence)
         self._feeder = RoadFeeder(self._road, s["horizon"])
         self._last = (0, 0)  # stamp of the latest odometry, s and ns
         self._patches = self.create_publisher(RoadProfile, ROAD_PROFILE, ROAD_QOS)

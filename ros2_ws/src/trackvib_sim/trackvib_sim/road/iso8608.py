@@ -3,12 +3,21 @@
 [ISO8608] gives the displacement power spectral density G_d(n) = G_d(n0) (n / n0)^-2 with n0 = 0.1 1/m and the
 geometric means G_d(n0) = 16e-6 * 4^k m^3 for the classes A (k = 0) to H (k = 7). [Tao2025] sums harmonics of it with
 random phase.
+
+The standard says nothing of left beside right. A surface with the same statistics in all directions and waviness 2 has
+the coherence x K1(x), x = 2 pi n d, between two lines d apart [Kamash1978]; K1 is the modified Bessel function.
+
+[Kamash1978] K. M. A. Kamash, J. D. Robson, The application of isotropy in road surface modelling, J. Sound Vib. 57
+(1978) 89-100.
 """
+
+from collections.abc import Callable
 
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from scipy.special import k1
 
 from ..numerics.compiled import kernel
 
@@ -16,8 +25,8 @@ CLASSES = "ABCDEFGH"
 REFERENCE_FREQUENCY = 0.1  # 1/m
 LOWEST, HIGHEST = 0.011, 2.83  # 1/m, the standard's range
 HARMONICS = 1000
-COHERENCE_LENGTH = 1.4  # m; the two tracks' coherence falls as exp(-1.4 n) (assumed, tracks 2.8 m apart)
 SPACING = 0.05  # m
+TREAD = 2.8  # m between the tracks, by default
 LEVEL_UNTIL, FADE = 8.0, 8.0  # m, by default: a vehicle starts on level ground, then the roughness fades in
 
 
@@ -26,9 +35,41 @@ def roughness(road_class, frequency):
     return 16e-6 * 4.0 ** CLASSES.index(road_class) * (np.asarray(frequency) / REFERENCE_FREQUENCY) ** -2.0
 
 
-def coherence(frequency):
-    """Return the coherence |G_lr| / sqrt(G_ll G_rr) between left and right at spatial frequencies [1/m]."""
-    return np.exp(-COHERENCE_LENGTH * np.asarray(frequency))
+@dataclass(frozen=True)
+class Isotropic:
+    """Coherence |G_lr| / sqrt(G_ll G_rr) of two lines on a surface that is alike in all directions.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> tv.Isotropic(2.8)(0.1).round(2), tv.Isotropic(0.0)(0.1)
+    (np.float64(0.34), np.float64(1.0))
+    """
+
+    distance: float = TREAD  # m, between the lines
+
+    def __call__(self, frequency):
+        """Return the coherence at spatial frequencies [1/m]."""
+        x = np.maximum(2.0 * np.pi * np.asarray(frequency) * self.distance, np.finfo(float).tiny)
+        return x * k1(x)
+
+
+@dataclass(frozen=True)
+class Exponential:
+    """Coherence |G_lr| / sqrt(G_ll G_rr) that falls as exp(-length n).
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> tv.Exponential(1.4)(0.1).round(2)
+    np.float64(0.87)
+    """
+
+    length: float  # m
+
+    def __call__(self, frequency):
+        """Return the coherence at spatial frequencies [1/m]."""
+        return np.exp(-self.length * np.asarray(frequency))
 
 
 @dataclass(frozen=True)
@@ -54,6 +95,7 @@ class Iso8608Road:
     seed: int
     level_until: float = LEVEL_UNTIL
     fade: float = FADE
+    coherence: Callable = Isotropic()  # of left and right, function of the spatial frequency
 
     def heights(self, first: int, count: int) -> np.ndarray:
         """Return the heights (2, count) [m], left and right, of the samples `first` ... `first + count - 1`.
@@ -70,7 +112,7 @@ class Iso8608Road:
         edges = np.geomspace(LOWEST, HIGHEST, HARMONICS + 1)
         frequency = edges[:-1] + (edges[1:] - edges[:-1]) * random.random(HARMONICS)
         amplitude = np.sqrt(2.0 * roughness(self.road_class, frequency) * (edges[1:] - edges[:-1]))
-        common = coherence(frequency)
+        common = self.coherence(frequency)
         # each side is a shared part and one of its own: G_lr = coherence * G, G_ll = G_rr = G
         weights = amplitude * np.stack((np.sqrt(common), np.sqrt(1.0 - common)))
         phases = 2.0 * np.pi * random.random((3, HARMONICS))

@@ -8,11 +8,13 @@ from mr_mount_controller.laws.base import ControlLaw, Sample, answer
 from ..numerics.units import NANO
 from ..road.feeder import HasHeights, RoadFeeder
 from .lockstep import Lockstep
-from .simulation import CHASSIS, HORIZON, POWERTRAIN, Simulation
+from .open_loop import joined
+from .readings import Readings
+from .simulation import HORIZON, POWERTRAIN, Simulation
 
 
 class Record(NamedTuple):
-    """What a run measured, one row a control period.
+    """What a run measured, one row a control period; of probes a row a physics step.
 
     Examples
     --------
@@ -28,6 +30,7 @@ class Record(NamedTuple):
     coil_current: np.ndarray  # (k, coils) at the end of the period, A
     deflection: np.ndarray  # (k, mounts, 3) at the end of the period, hull axes, m
     force: np.ndarray  # (k, mounts, 3) on the powertrain at the same time, hull axes, N
+    probed: np.ndarray  # (k steps, p, 3) specific force in the axes of the probes' bodies, m/s^2
 
 
 def run_closed_loop(simulation: Simulation, road: HasHeights, law: ControlLaw, periods: int) -> Record:
@@ -61,38 +64,38 @@ def run_closed_loop(simulation: Simulation, road: HasHeights, law: ControlLaw, p
 
     coils, mounts = (simulation.mounting.coils,), (len(simulation.mounting.mounts), 3)
     shapes = ((2, 3), (2, 3), coils, coils, mounts, mounts)
-    record = Record(np.zeros(periods, dtype=np.int64), *(np.zeros((periods, *shape)) for shape in shapes))
-    for k, lockstep in zip(range(periods), periods_under_law(simulation, law, feed), strict=False):
-        force, rate, mounts = (
-            simulation.sample.specific_force,
-            simulation.sample.angular_velocity,
-            simulation.sample.mounts,
-        )
+    probed = np.zeros((periods, *simulation.sample.probed.shape))
+    record = Record(
+        np.zeros(periods, dtype=np.int64),
+        *(np.zeros((periods, *shape)) for shape in shapes),
+        joined(probed),
+    )
+    for k, (lockstep, sample) in zip(range(periods), periods_under_law(simulation, law, feed), strict=False):
+        mounts = simulation.sample.mounts
         record.stamp[k] = simulation.time
-        record.specific_force[k], record.angular_velocity[k] = force[: POWERTRAIN + 1], rate[: POWERTRAIN + 1]
+        record.specific_force[k] = sample.chassis_force, sample.powertrain_force
+        record.angular_velocity[k] = sample.chassis_angular_velocity, sample.powertrain_angular_velocity
         record.current[k] = lockstep.currents
         record.coil_current[k], record.deflection[k], record.force[k] = mounts.current, mounts.deflection, mounts.force
+        probed[k] = simulation.sample.probed
     return record
 
 
 def periods_under_law(simulation, law, feed=lambda: None):
-    """Yield the `Lockstep` after each control period under a control law, without end.
+    """Yield the `Lockstep` and the law's `Sample` after each control period under a control law, without end.
 
     `feed()` is called before each period, to see to the road ahead. Raises as `run_closed_loop` does.
     """
     lockstep = Lockstep(simulation.mounting.coils, simulation.settings.passive_current, (-np.inf, np.inf))
+    readings = Readings(simulation)
+    names = [sensor.name for sensor in simulation.sensors[: POWERTRAIN + 1]]
     law.run_on(simulation.mounting)
     while True:
         feed()
         simulation.advance(lockstep.currents)
-        force, rate = simulation.sample.specific_force, simulation.sample.angular_velocity
-        sample = Sample(
-            simulation.time / NANO,
-            tuple(force[CHASSIS].tolist()),
-            tuple(rate[CHASSIS].tolist()),
-            tuple(force[POWERTRAIN].tolist()),
-            tuple(rate[POWERTRAIN].tolist()),
-        )
+        read = readings.take()
+        vectors = (tuple(vector.tolist()) for name in names for vector in read[name])
+        sample = Sample(simulation.time / NANO, *vectors)
         lockstep.publish(simulation.time)
         lockstep.offer(simulation.time, answer(law, sample))
-        yield lockstep
+        yield lockstep, sample

@@ -12,17 +12,19 @@ CHUNK = 100  # periods in one compiled call, and between two calls of `on_progre
 
 
 class OpenLoopRecord(NamedTuple):
-    """What a run measured, one row a control period; sensors in the order of the simulation's sample.
+    """What a run measured: sensors, in the order of the simulation's sample, a row a control period; probes, in theirs,
+    a row a physics step.
 
     Examples
     --------
     >>> import trackvib_sim as tv
     >>> tv.OpenLoopRecord._fields
-    ('time', 'specific_force', 'speed')
+    ('time', 'specific_force', 'probed', 'speed')
     """
 
     time: np.ndarray  # (k,) s
     specific_force: np.ndarray  # (k, m, 3) m/s^2
+    probed: np.ndarray  # (k steps, p, 3) specific force in the axes of the probes' bodies, m/s^2
     speed: np.ndarray  # (k,) of the hull, along its own x axis, m/s
 
 
@@ -51,12 +53,18 @@ def run_open_loop(
     feeder = RoadFeeder(road, HORIZON)
     current = np.full(simulation.mounting.coils, simulation.settings.passive_current)
     force = np.zeros((periods, *simulation.sample.specific_force.shape))
-    speed = np.zeros(periods)
+    probed, speed = np.zeros((periods, *simulation.sample.probed.shape)), np.zeros(periods)
     for first in range(0, periods, CHUNK):
         for start, spacing, heights in feeder.patches(simulation.distance):
             simulation.road.add(start, spacing, *heights)
         part = slice(first, first + CHUNK)
-        simulation.advance_many(current, force[part], speed[part])
+        simulation.advance_many(current, force[part], probed[part], speed[part])
         on_progress(min(first + CHUNK, periods))
     time = np.arange(1, periods + 1) / simulation.settings.rates.control
-    return OpenLoopRecord(time, force, speed)
+    return OpenLoopRecord(time, force, joined(probed), speed)
+
+
+def joined(probed):
+    """Return what probes met in the steps of all periods (k, steps, p, 3) as one array (k steps, p, 3), no copy."""
+    periods, steps, *rest = probed.shape
+    return probed.reshape(periods * steps, *rest)

@@ -10,7 +10,8 @@ from ..vehicle.mount_law import lay_fields
 from ..vehicle.system import new_state, new_work
 from ..vehicle.tracks.initial import assemble_tracks
 from ..vehicle.tracks.nodes import STRIDE, NodeOffset
-from .step import REASONS, Sensors, Status, advance, new_sample
+from .sensing import points_of
+from .step import REASONS, Status, advance, new_sample
 
 DURATION = 3.0  # s; the slowest motion, of the driver's speed control, has a time constant of 0.9 s
 _SPACING = 1.0  # m
@@ -39,10 +40,11 @@ def run_in(vehicle, system, settings):
     way = 1.5 * DURATION * speed
     samples = int((2.0 * _AROUND + abs(way)) / _SPACING) + 2
     road = Road(int((min(way, 0.0) - _AROUND) / _SPACING), _SPACING, np.zeros((2, samples)))
-    sensors = Sensors(np.zeros(0, int), np.zeros((0, 3)), np.zeros((0, 9)))
+    points = points_of((), (), {}, settings.rates)
     steps = round(DURATION / system.dt)
     demanded = np.full(system.mounts.coils, settings.passive_current)
-    status = advance(system, state, road, demanded, steps, work, sensors, new_sample(sensors, system.mounts))
+    sample = new_sample(points, 0, system.mounts)
+    status = advance(system, state, road, demanded, steps, work, points, sample)
     if status != Status.GOOD:
         raise CannotRoll(
             f"the vehicle cannot roll at {speed:g} m/s on a level road: {REASONS[status]}; check the vehicle file"

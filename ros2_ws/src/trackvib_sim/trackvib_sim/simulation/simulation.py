@@ -10,11 +10,12 @@ from ..numerics.units import NANO
 from ..road.store import RoadStore
 from ..vehicle.mounting import mounting_of
 from ..vehicle.parameters import Vehicle
-from ..vehicle.sensors import Sensor, sensors_of
+from ..vehicle.sensors import sensors_of
 from ..vehicle.system import body_rows, build_system, new_work
 from .run_in import run_in
 from .settings import RunSettings
-from .step import REASONS, Sensors, Status, advance_many, control_periods, new_sample, observe
+from .sensing import points_of
+from .step import REASONS, Status, advance_many, control_periods, new_sample, observe
 
 CHASSIS, POWERTRAIN = 0, 1  # rows of the sample
 HORIZON = 50.0  # m of road that a run in one process keeps ahead of the vehicle
@@ -22,7 +23,7 @@ _MARGIN = 1.0  # m of road beyond sprockets and idlers
 
 
 class Probe(NamedTuple):
-    """A further point whose acceleration is measured.
+    """A further point whose acceleration is measured, at every physics step and as it is.
 
     Examples
     --------
@@ -53,8 +54,8 @@ class Simulation:
     ----------
     sensors : list of vehicle.sensors.Sensor
     sample : step.Sample
-        Of the last control period, a row a sensor, `CHASSIS` and `POWERTRAIN` first; the probes follow. Before the
-        first period only its state, not its means, is filled.
+        Of the last control period, a row a sensor, `CHASSIS` and `POWERTRAIN` first. Before the first period nothing
+        is measured, only its state is filled.
     mounting : mr_mount_controller.mounting.Mounting
         The mounts in the order of the sample, and how many coils there are.
     state : vehicle.system.State
@@ -79,7 +80,7 @@ class Simulation:
         self._initial = run_in(vehicle, self.system, settings)
         self.sensors = sensors_of(vehicle)
         self.mounting = mounting_of(vehicle)
-        self.points = _points([*self.sensors, *probes], body_rows(vehicle, self.system.tree))
+        self.points = points_of(self.sensors, probes, body_rows(vehicle, self.system.tree), settings.rates)
         self._reach = max(abs(vehicle.idlers.x), abs(vehicle.sprockets.x)) + _MARGIN
         self.reset()
 
@@ -89,7 +90,9 @@ class Simulation:
         self.state = deepcopy(self._initial)
         self.road = RoadStore()
         self.periods = 0
-        self.sample, self._next = (new_sample(self.points, self.system.mounts) for _ in range(2))
+        self.points.started[:] = False
+        steps = self.settings.rates.steps
+        self.sample, self._next = (new_sample(self.points, steps, self.system.mounts) for _ in range(2))
         self._work = new_work(self.system)
         self._demanded = np.zeros(self.mounting.coils)
         observe(self.system, self.state, self._work.motion, self.sample)
@@ -131,11 +134,11 @@ class Simulation:
             )
             self._held = road
 
-    def advance_many(self, demanded, force, speed):
-        """Do a control period for each row of `force` (k, m, 3) [m/s^2] and of `speed` (k,) [m/s].
+    def advance_many(self, demanded, force, probed, speed):
+        """Do a control period for each row of `force` (k, m, 3) [m/s^2], `probed` and `speed` (k,) [m/s].
 
-        They are filled with the sensors' specific forces and the hull's speed along its own x axis. Raises as
-        `advance` does, with the rows before the failure filled.
+        They are filled with the sensors' specific forces, those of the probes (k, steps, p, 3) at every physics step,
+        and the hull's speed along its own x axis. Raises as `advance` does, with the rows before the failure filled.
         """
         status, done = advance_many(
             self.system,
@@ -147,6 +150,7 @@ class Simulation:
             self.points,
             self.sample,
             force,
+            probed,
             speed,
         )
         self._end_periods(status, done)
@@ -160,13 +164,3 @@ class Simulation:
         way = 1.5 * periods * self.settings.operation.speed / self.settings.rates.control
         rear, front = self.distance - self._reach, self.distance + self._reach
         return self.road.around(rear + min(way, 0.0), front + max(way, 0.0))
-
-
-def _points(sensors, rows):
-    """The kernels' record of `Sensor`s and `Probe`s."""
-    turns = [sensor.turn if isinstance(sensor, Sensor) else np.eye(3) for sensor in sensors]
-    return Sensors(
-        np.array([rows[sensor.body] for sensor in sensors]),
-        np.array([sensor.place for sensor in sensors], dtype=float),
-        np.array([turn.ravel() for turn in turns]),
-    )

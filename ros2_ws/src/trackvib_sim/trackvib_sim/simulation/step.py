@@ -6,12 +6,12 @@ from typing import NamedTuple
 import numpy as np
 
 from ..numerics.compiled import inlined, kernel
-from ..numerics.spatial import load3, rotate_back, store3
+from ..numerics.spatial import store3
 from ..rui.sweeps.articulated import open_cuts
 from ..rui.sweeps.elastic import apply_elastic_hinges
 from ..rui.sweeps.integrator import integrate
-from ..rui.sweeps.kinematics import MotionOffset, body_axes, motion_vector, point_place, rotation, update_motion
-from ..rui.sweeps.riccati import point_specific_force, solve_accelerations
+from ..rui.sweeps.kinematics import MotionOffset, body_axes, motion_vector, rotation, update_motion
+from ..rui.sweeps.riccati import solve_accelerations
 from ..vehicle.coil import drive_coils
 from ..vehicle.driver import add_driver
 from ..vehicle.engine import add_engine, imposed_displacement, turn_crank
@@ -20,6 +20,7 @@ from ..vehicle.mount_energy import update_mount_energy
 from ..vehicle.mounts import MountSample, add_mounts, new_mount_sample, observe_mounts
 from ..vehicle.suspension import add_suspension
 from ..vehicle.tracks.tracks import add_tracks, move_tracks, track_skips, wheel_below_road
+from .sensing import measure
 
 
 class Status(IntEnum):
@@ -45,31 +46,25 @@ REASONS = {
 }
 
 
-class Sensors(NamedTuple):
-    """Points whose acceleration is measured, in the axes of their bodies."""
-
-    body: np.ndarray  # (m,) row in the tree
-    place: np.ndarray  # (m, 3) m
-    turn: np.ndarray  # (m, 9) from the sensors' axes into those of their bodies
-
-
 class Sample(NamedTuple):
     """What one control period leaves to look at.
 
-    Sensors give means over the period, as integrating instruments do; the rest is the state at its end.
+    Sensors and the rest give what there is at its end, probes a row a physics step.
     """
 
-    specific_force: np.ndarray  # (m, 3) acceleration less gravity, sensors' axes, m/s^2
-    angular_velocity: np.ndarray  # (m, 3) sensors' axes, rad/s
+    specific_force: np.ndarray  # (m, 3) acceleration less gravity through the low-pass, sensors' axes, m/s^2
+    angular_velocity: np.ndarray  # (m, 3) through the low-pass, sensors' axes, rad/s
+    probed: np.ndarray  # (steps, p, 3) specific force of the probes, axes of their bodies, m/s^2
     hull_velocity: np.ndarray  # (1, 3) of the hull's origin, hull axes, m/s
     hull_angular_velocity: np.ndarray  # (1, 3) hull axes, rad/s
     mounts: MountSample
 
 
-def new_sample(sensors, mounts):
-    """Return room for a sample."""
-    m = len(sensors.body)
-    return Sample(np.zeros((m, 3)), np.zeros((m, 3)), np.zeros((1, 3)), np.zeros((1, 3)), new_mount_sample(mounts))
+def new_sample(points, steps, mounts):
+    """Return room for a sample of a period of `steps` physics steps."""
+    m, p = len(points.body), len(points.probe_body)
+    measured = np.zeros((m, 3)), np.zeros((m, 3)), np.zeros((steps, p, 3))
+    return Sample(*measured, np.zeros((1, 3)), np.zeros((1, 3)), new_mount_sample(mounts))
 
 
 @inlined
@@ -99,29 +94,13 @@ def add_forces(system, state, road, work):
     add_driver(system.driver, motion, cuts, state.speed_integral, system.dt)
 
 
-@kernel
-def measure(work, sensors, sample, share):
-    """Add one step's part (`share`) to the means of a sample."""
-    for i in range(sensors.body.size):
-        body = sensors.body[i]
-        place = point_place(work.motion, body, load3(sensors.place, i))
-        force = body_axes(work.motion, body, point_specific_force(work.motion, work.response, body, place))
-        rate = body_axes(work.motion, body, motion_vector(work.motion, MotionOffset.ANGULAR_VELOCITY, body))
-        turn = sensors.turn[i]
-        axes = (turn[0], turn[1], turn[2], turn[3], turn[4], turn[5], turn[6], turn[7], turn[8])
-        force, rate = rotate_back(axes, force), rotate_back(axes, rate)
-        for k in range(3):
-            sample.specific_force[i, k] += share * force[k]
-            sample.angular_velocity[i, k] += share * rate[k]
-
-
 @inlined
-def end_step(system, state, road, work, sensors, sample, share):
-    """With all accelerations known: measure with weight `share` in the means, then integrate.
+def end_step(system, state, road, work, points, sample, step):
+    """With all accelerations known: measure the period's `step`, then integrate.
 
     Returns `GOOD`, or what made the state leave the valid range.
     """
-    measure(work, sensors, sample, share)
+    measure(work, points, sample, step)
     integrate(system.tree, state.tree, work.response, system.dt)
     move_tracks(system.tracks, state.tracks, work.motion, system.tree.gravity, work.tracks, system.dt)
     state.crank_angle[0] = turn_crank(system.engine, state.crank_angle[0], system.dt)
@@ -143,18 +122,16 @@ def end_step(system, state, road, work, sensors, sample, share):
 
 
 @kernel
-def advance(system, state, road, demanded, steps, work, sensors, sample):
+def advance(system, state, road, demanded, steps, work, points, sample):
     """Advance the vehicle by one control period of `steps` physics steps with constant demanded currents (c,) [A].
 
-    Fills `sample` with the period's means. Returns `GOOD`, or at once what made the state leave the valid range.
+    Fills `sample`. Returns `GOOD`, or at once what made the state leave the valid range.
     """
-    sample.specific_force[:] = 0.0
-    sample.angular_velocity[:] = 0.0
-    for _ in range(steps):
+    for step in range(steps):
         drive_coils(system.coil, demanded, state.coils)
         add_forces(system, state, road, work)
         solve_accelerations(system.tree, work.motion, work.cuts, work.response)
-        status = end_step(system, state, road, work, sensors, sample, 1.0 / steps)
+        status = end_step(system, state, road, work, points, sample, step)
         if status != Status.GOOD:
             return status
     observe(system, state, work.motion, sample)
@@ -162,7 +139,7 @@ def advance(system, state, road, demanded, steps, work, sensors, sample):
 
 
 @kernel
-def control_periods(system, state, road, demanded, steps, work, sensors, following, last):
+def control_periods(system, state, road, demanded, steps, work, points, following, last):
     """Generate the statuses of control periods as `advance` gives them, samples being filled in turns.
 
     The first period fills `following`; the sample of a period that is not good is filled again. A generator keeps its
@@ -170,26 +147,32 @@ def control_periods(system, state, road, demanded, steps, work, sensors, followi
     does not own them.
     """
     while True:
-        status = advance(system, state, road, demanded, steps, work, sensors, following)
+        status = advance(system, state, road, demanded, steps, work, points, following)
         if status == Status.GOOD:
             following, last = last, following
         yield status
 
 
 @kernel
-def advance_many(system, state, road, demanded, steps, work, sensors, sample, force, speed):
-    """Advance by as many control periods as `force` (k, m, 3) and `speed` (k,) have rows, and fill them.
+def advance_many(system, state, road, demanded, steps, work, points, sample, force, probed, speed):
+    """Advance by as many control periods as `speed` (k,) has rows; fill it, `force` (k, m, 3) and `probed`.
+
+    The last is (k, steps, p, 3), as a sample has it.
 
     Returns the status as `advance` does and the number of good periods.
     """
     for k in range(speed.size):
-        status = advance(system, state, road, demanded, steps, work, sensors, sample)
+        status = advance(system, state, road, demanded, steps, work, points, sample)
         if status != Status.GOOD:
             return status, k
         speed[k] = sample.hull_velocity[0, 0]
-        for i in range(sensors.body.size):
+        for i in range(points.body.size):
             for axis in range(3):
                 force[k, i, axis] = sample.specific_force[i, axis]
+        for step in range(steps):
+            for i in range(points.probe_body.size):
+                for axis in range(3):
+                    probed[k, step, i, axis] = sample.probed[step, i, axis]
     return Status.GOOD, speed.size
 
 

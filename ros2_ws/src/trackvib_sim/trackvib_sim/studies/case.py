@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..analysis.settling import settling_time
-from ..analysis.vibration import band, band_limited, rms
-from ..road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road
+from ..analysis.vibration import LOWEST, band_limited, rms
+from ..road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road, Isotropic
 from ..simulation.open_loop import run_open_loop
 from ..simulation.run_in import CannotRoll
 from ..simulation.settings import Rates, RunSettings
@@ -20,7 +20,7 @@ from ..vehicle.system import Operation
 ENGINE_SPEED = 2100.0  # r/min
 IMPOSED_DISPLACEMENT = True
 RATES = Rates()
-BAND = band(RATES.control)  # Hz, of all RMS values
+BAND = LOWEST, 500.0  # Hz, of all RMS values; measured at every physics step
 MEASURING = 5.0  # s
 PROBES = ("chassis", "powertrain", "rigid")
 GOOD = "ok"
@@ -47,12 +47,13 @@ class Result:
 
 
 class Drive(NamedTuple):
-    """The settled part of a run, one row a control period."""
+    """The settled part of a run, one row a physics step."""
 
+    rate: float  # Hz, of the rows
     time: np.ndarray  # (k,) s
     specific_force: dict  # probe -> (k, 3) body axes, m/s^2
     limited: dict  # probe -> (k, 3) the same within `BAND`
-    speed: np.ndarray  # (k,) m/s
+    speed: np.ndarray  # (n,) m/s, one row a control period
 
 
 def probes(vehicle):
@@ -82,13 +83,18 @@ def settling(speed):
 
 
 def prepare(vehicle, case, kind=Simulation):
-    """Return the simulation of a case, with `probes` as the last rows of its sample, and its road.
+    """Return the simulation of a case, with its `probes`, and its road.
 
     `kind` is `Simulation` or a subclass of it.
     """
     operation = Operation(case.speed, ENGINE_SPEED, IMPOSED_DISPLACEMENT, case.track_phase)
     simulation = kind(vehicle, RunSettings(operation, rates_for(vehicle), case.current), probes(vehicle))
-    return simulation, Iso8608Road(case.road_class, case.seed, LEVEL_UNTIL, FADE)
+    return simulation, rough_road(vehicle, case.road_class, case.seed)
+
+
+def rough_road(vehicle, road_class, seed):
+    """Return a road under the tracks of a vehicle."""
+    return Iso8608Road(road_class, seed, LEVEL_UNTIL, FADE, Isotropic(2.0 * vehicle.road_wheels.y))
 
 
 def record(simulation, road, duration=MEASURING, progress=lambda done: None):
@@ -101,13 +107,16 @@ def record(simulation, road, duration=MEASURING, progress=lambda done: None):
     RunFailed
         The state left what the model can describe.
     """
-    settled = round(settling(simulation.settings.operation.speed) * RATES.control)
-    run = run_open_loop(simulation, road, settled + round(duration * RATES.control), progress)
-    force = dict(zip(PROBES, np.moveaxis(run.specific_force[:, -len(PROBES) :], 1, 0), strict=True))
+    rates = simulation.settings.rates
+    settled = round(settling(simulation.settings.operation.speed) * rates.control)
+    run = run_open_loop(simulation, road, settled + round(duration * rates.control), progress)
+    force = dict(zip(PROBES, np.moveaxis(run.probed, 1, 0), strict=True))
     # filtered before it is cut, so that the filter's own settling at the start is cut as well
-    limited = {probe: band_limited(values, RATES.control)[settled:] for probe, values in force.items()}
-    force = {probe: values[settled:] for probe, values in force.items()}
-    return Drive(run.time[settled:], force, limited, run.speed[settled:])
+    begin = settled * rates.steps
+    limited = {probe: band_limited(values, rates.physics, BAND[1])[begin:] for probe, values in force.items()}
+    force = {probe: values[begin:] for probe, values in force.items()}
+    time = np.arange(begin + 1, begin + 1 + len(limited[PROBES[0]])) / rates.physics
+    return Drive(rates.physics, time, force, limited, run.speed[settled:])
 
 
 def drive(vehicle, case, duration=MEASURING):

@@ -39,7 +39,7 @@ def build_linear_vehicle(vehicle, system, current):
     np.add.at(damping, system.springs.row, system.springs.damping)
     s = system.suspension
     stiffness[s.row] += s.bar_stiffness
-    damping[s.row] += s.friction + s.shock_damping * s.length**2
+    damping[s.row] += s.friction + s.shock_damping * s.reach**2
     row = system.tree.row
     return LinearModel(
         bodies=bodies,

@@ -65,12 +65,22 @@ class DriverParameters(Section):
 
 
 class SensorParameters(Section):
-    """An inertial sensor; `divisor` control periods make one of its samples."""
+    """An inertial sensor; `divisor` control periods make one of its samples. Errors of the accelerometer, and of the
+    gyroscope (`rate_`): what is left out is ideal."""
 
     body: Name
     place: Place
     orientation: Angles | None = None
     divisor: scalar("-", ge=1.0, le=1000.0, multiple_of=1.0) | None = None
+    bandwidth: scalar("Hz", gt=0.0) | None = None
+    noise: scalar("m/s^2/sqrt(Hz)", ge=0.0) | None = None
+    bias: vector("m/s^2", 3) | None = None
+    range: scalar("m/s^2", gt=0.0) | None = None
+    resolution: scalar("m/s^2", gt=0.0) | None = None
+    rate_noise: scalar("rad/s/sqrt(Hz)", ge=0.0) | None = None
+    rate_bias: vector("rad/s", 3) | None = None
+    rate_range: scalar("rad/s", gt=0.0) | None = None
+    rate_resolution: scalar("rad/s", gt=0.0) | None = None
 
 
 class Vehicle(Section):

@@ -10,6 +10,27 @@ from .mounts import mounts_in_order
 from .parameters import CHASSIS, POWERTRAIN
 
 
+class Instrument(NamedTuple):
+    """What keeps three axes of a sensor from being ideal, in the unit of what they measure.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> tv.Instrument(noise=0.002).is_ideal
+    False
+    """
+
+    noise: float = 0.0  # one-sided density, unit / sqrt(Hz)
+    bias: tuple = (0.0, 0.0, 0.0)
+    range: float = np.inf  # to either side
+    resolution: float = 0.0  # 0 for none
+
+    @property
+    def is_ideal(self) -> bool:
+        """Whether it changes nothing."""
+        return self == Instrument()
+
+
 class Sensor(NamedTuple):
     """One sensor.
 
@@ -25,6 +46,9 @@ class Sensor(NamedTuple):
     place: tuple  # in the body's axes, from its origin, m
     turn: np.ndarray = np.eye(3)  # (3, 3) from the sensor's axes into those of the body
     divisor: int = 1  # control periods that make one of its samples
+    bandwidth: float | None = None  # Hz, of its analogue low-pass; None for that of its sampling rate
+    accelerometer: Instrument = Instrument()
+    gyroscope: Instrument = Instrument()
 
 
 def sensors_of(vehicle):
@@ -41,7 +65,15 @@ def sensors_of(vehicle):
 
 def _sensor(name, section):
     turn = Rotation.from_euler("xyz", section.orientation or (0.0, 0.0, 0.0), degrees=True).as_matrix()
-    return Sensor(name, section.body, tuple(section.place), turn, int(section.divisor or 1))
+    divisor, instruments = int(section.divisor or 1), (_instrument(section, prefix) for prefix in ("", "rate_"))
+    return Sensor(name, section.body, tuple(section.place), turn, divisor, section.bandwidth, *instruments)
+
+
+def _instrument(section, prefix):
+    given = {name: getattr(section, prefix + name) for name in Instrument._fields}
+    return Instrument(**{
+        name: tuple(value) if isinstance(value, list) else value for name, value in given.items() if value is not None
+    })
 
 
 def _between_mounts(vehicle):

@@ -14,7 +14,7 @@ class Suspension(NamedTuple):
     """All swing arms, a arms; angles are jounce positive and zero at static ride height."""
 
     row: np.ndarray  # (a,) row of the arm in the tree
-    length: float  # m
+    reach: float  # m, of an arm along x at angle zero: how far a wheel rises for each radian there
     bar_stiffness: np.ndarray  # (a,) N m/rad
     preload: np.ndarray  # (a,) N m that the bar holds at angle zero
     friction: np.ndarray  # (a,) N m s/rad
@@ -42,16 +42,16 @@ def build_suspension(vehicle, rows, load):
     stop = [angle - asin(sin(angle) - travel / arms.length) for travel in arms.bump_travel]
     return Suspension(
         row=np.array([rows[arm_name(side, station)] for side in SIDES for station in range(stations)]),
-        length=arms.length,
+        reach=reach,
         bar_stiffness=both_sides(arms.wheel_rate, reach**2),
         preload=both_sides(arms.preload or [share * reach]),
-        friction=both_sides(arms.friction, arms.length**2),
+        friction=both_sides(arms.friction, reach**2),
         shock_damping=both_sides(shocks.damping),
         blow_off_force=both_sides(shocks.blow_off_force),
         blow_off_damping=both_sides(shocks.blow_off_damping),
         stop_angle=both_sides(stop),
-        stop_stiffness=both_sides(arms.bump_stiffness, arms.length**2),
-        stop_damping=both_sides(arms.bump_damping, arms.length**2),
+        stop_stiffness=both_sides(arms.bump_stiffness, reach**2),
+        stop_damping=both_sides(arms.bump_damping, reach**2),
     )
 
 
@@ -73,7 +73,7 @@ def add_suspension(suspension, state, torques):
         b = s.row[i]
         angle, rate = state.hinge[b], state.hinge_rate[b]
         torque = -s.preload[i] - s.bar_stiffness[i] * angle - s.friction[i] * rate
-        torque -= s.length * shock_force(s, i, s.length * rate)
+        torque -= s.reach * shock_force(s, i, s.reach * rate)
         if angle > s.stop_angle[i]:
             # a stop only pushes
             torque += min(0.0, -s.stop_stiffness[i] * (angle - s.stop_angle[i]) - s.stop_damping[i] * rate)

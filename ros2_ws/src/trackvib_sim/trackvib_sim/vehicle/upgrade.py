@@ -1,6 +1,16 @@
-"""Reads vehicle files of the format before, as recordings hold them: one vehicle, whose parts had fixed sections."""
+"""Reads vehicle files of former formats, as recordings hold them.
 
-FORMAT = 2
+Format 1 had one vehicle, whose parts had fixed sections. In format 2 damping and stops of the arms were meant along the
+wheel's arc, in format 3 they are vertical, as the wheel rate has always been.
+"""
+
+from math import cos, radians
+
+FORMAT = 3
+_ALONG_THE_ARC = {  # item: by which power of the cosine of the arm's static angle its vertical value is larger
+    "swing_arms": {"friction": 2, "bump_stiffness": 2, "bump_damping": 2},
+    "shock_absorbers": {"damping": 2, "blow_off_force": 1, "blow_off_damping": 2},
+}
 _OLD_SECTIONS = {"hull", "turret", "gun_mount", "recoil_part", "mr_mounts", "swing_arms"}
 _AXES = {"turret": [0.0, 0.0, 1.0], "gun_mount": [0.0, -1.0, 0.0], "recoil_part": [1.0, 0.0, 0.0]}
 _HINGES = {"turret": "revolute", "gun_mount": "revolute", "recoil_part": "prismatic"}
@@ -8,18 +18,32 @@ _PARENTS = {"turret": "hull", "gun_mount": "turret", "recoil_part": "gun_mount"}
 
 
 def upgraded(content):
-    """Return what a vehicle file holds in the present format; what is no file of the one before stays as it is."""
-    if not (isinstance(content, dict) and "format" not in content and content.keys() >= _OLD_SECTIONS):
+    """Return what a vehicle file holds in the present format; what is no file of a former one stays as it is."""
+    if not isinstance(content, dict):
+        return content
+    first = "format" not in content and content.keys() >= _OLD_SECTIONS
+    if not first and content.get("format") != 2:
         return content
     new = {name: dict(items) if isinstance(items, dict) else items for name, items in content.items()}
     try:
-        return _upgraded(new)
+        return _made_vertical(_upgraded(new) if first else new)
     except (KeyError, TypeError, AttributeError, ValueError):
         return content  # is refused as it stands
 
 
+def _made_vertical(new):
+    level = cos(radians(new["swing_arms"]["static_angle"]["value"]))
+    for section, items in _ALONG_THE_ARC.items():
+        for item, power in items.items():
+            quantity = new[section][item]
+            values, factor = quantity["value"], level**-power
+            scaled = [factor * value for value in values] if isinstance(values, list) else factor * values
+            new[section][item] = quantity | {"value": scaled}
+    return new | {"format": FORMAT}
+
+
 def _upgraded(new):
-    new |= {"format": FORMAT, "name": "vehicle", "description": "read from a file of format 1"}
+    new |= {"name": "vehicle", "description": "read from a file of format 1"}
     new["bodies"] = {
         name: new.pop(name) | {"parent": _PARENTS[name], "hinge": hinge, "axis": _assumed(_AXES[name], "-")}
         for name, hinge in _HINGES.items()

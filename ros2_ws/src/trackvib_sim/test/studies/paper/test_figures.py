@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from trackvib_sim.studies.case import GOOD, PROBES, RATES, Case, Drive, Result
+from trackvib_sim.studies.case import GOOD, PROBES, Case, Drive, Result
 from trackvib_sim.studies.paper.figures import CLASSES, SEED, SHOWN, SPEEDS, TRACK_PHASE, draw
 from trackvib_sim.studies.paper.second_solver import Comparison
 
@@ -16,10 +16,11 @@ FAILED = Case("C", 20.0, SEED, TRACK_PHASE)
 
 def made_up(amplitude, line):
     """A drive of 3 s with a line [Hz] in all axes, of 1, 2 and 3 times an amplitude [m/s^2]."""
-    time = np.arange(1, 3001) / RATES.control
+    rate = 10_000.0
+    time = np.arange(1, 30_001) / rate
     wave = amplitude * np.sin(2.0 * np.pi * line * time)[:, None] * (1.0, 2.0, 3.0)
     force = {probe: wave for probe in PROBES}
-    return Drive(time, force, force, np.full(len(time), 10.0))
+    return Drive(rate, time, force, force, np.full(len(time), 10.0))
 
 
 @pytest.fixture(scope="module")

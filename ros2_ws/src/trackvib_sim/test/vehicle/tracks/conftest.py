@@ -3,10 +3,12 @@
 import numpy as np
 import pytest
 from trackvib_sim.road.store import Road
-from trackvib_sim.simulation.step import Sensors, Status, advance, new_sample
+from trackvib_sim.simulation.sensing import points_of
+from trackvib_sim.simulation.settings import Rates
+from trackvib_sim.simulation.step import Status, advance, new_sample
 from trackvib_sim.vehicle.system import new_state, new_work
 
-NO_SENSORS = Sensors(np.zeros(0, int), np.zeros((0, 3)), np.zeros((0, 9)))
+NO_SENSORS = points_of((), (), {}, Rates())
 
 
 @pytest.fixture(scope="session")
@@ -26,7 +28,7 @@ def mover():
 
     def make(system):
         work, sensors, current = new_work(system), NO_SENSORS, np.ones_like(new_state(system).coils.field)
-        sample = new_sample(sensors, system.mounts)
+        sample = new_sample(sensors, 0, system.mounts)
 
         def move(state, road, steps):
             assert advance(system, state, road, current, steps, work, sensors, sample) == Status.GOOD

@@ -24,12 +24,13 @@ class Candidate(NamedTuple):
     scatter: float  # as `calibration_objective.ratios` gives it
     values: list  # of the parameters
     ratios: np.ndarray  # (rows, 6) ours over the paper's, nan in rows with a failed run
+    resistance: np.ndarray  # (speeds, 2) running resistance over both ends of its range, nan where the run failed
 
 
 class History:
     """A CSV file of candidates, each there as soon as it has been evaluated.
 
-    The first line names by a hash what the numbers depend on. All numbers but the ratios are exact: a search that is
+    The first line names by a hash what the numbers depend on. All numbers but ratios and resistances are exact: a search that is
     done again with them takes the same way.
 
     Attributes
@@ -59,8 +60,10 @@ class History:
             It cannot be read or written.
         """
         names = [f"{road_class}_{speed:g}_{column}" for road_class, speed in rows for column in COLUMNS]
+        speeds = sorted({speed for _, speed in rows})
+        names += [f"resistance_{speed:g}_over_{end}" for speed in speeds for end in ("low", "high")]
         head = f"# vehicle, plan, paper's rows and program: {key}\n{','.join((*_KEYS, *items, *names))}\n"
-        self._path, self._values = path, len(items)
+        self._path, self._values, self._ratios = path, len(items), len(rows) * len(COLUMNS)
         if not path.exists():
             _write(path, head)
         text = path.read_text(encoding="utf-8")
@@ -87,17 +90,27 @@ class History:
     def append(self, candidate):
         """Add a candidate, to the file at once."""
         first = (str(candidate.generation), str(candidate.index), repr(candidate.objective), repr(candidate.scatter))
-        ratios = [f"{ratio:.6g}" if np.isfinite(ratio) else "" for ratio in candidate.ratios.ravel()]
+        numbers = np.concatenate((candidate.ratios.ravel(), candidate.resistance.ravel()))
+        numbers = [f"{number:.6g}" if np.isfinite(number) else "" for number in numbers]
         with self._path.open("a", encoding="utf-8") as file:
-            file.write(",".join([*first, *map(repr, candidate.values), *ratios]) + "\n")
+            file.write(",".join([*first, *map(repr, candidate.values), *numbers]) + "\n")
         self.candidates.append(candidate)
         self._known[candidate.generation, candidate.index] = candidate
 
     def _candidate(self, line):
         generation, index, objective, scatter, *numbers = line
-        ratios = np.array([float(each or "nan") for each in numbers[self._values :]]).reshape(-1, len(COLUMNS))
         values = [float(each) for each in numbers[: self._values]]
-        return Candidate(int(generation), int(index), float(objective), float(scatter), values, ratios)
+        found = np.array([float(each or "nan") for each in numbers[self._values :]])
+        ratios, resistance = np.split(found, [self._ratios])
+        return Candidate(
+            int(generation),
+            int(index),
+            float(objective),
+            float(scatter),
+            values,
+            ratios.reshape(-1, len(COLUMNS)),
+            resistance.reshape(-1, 2),
+        )
 
 
 def _write(path, text):

@@ -1,14 +1,16 @@
-"""How far a vehicle is from the paper's table: the number that a calibration makes small."""
+"""How far a vehicle is from its targets, the paper's table and a running resistance: the number to be made small."""
 
 import numpy as np
 
 from ..case import GOOD, Case
 from ..paper.paper_table import COLUMNS, PAPER_AXES, SENSORS
+from ..resistance.case import ResistanceCase
 
 FIRST_SEED = 1001  # of roads; `study table1`, which checks the result, has others
 FAILED = 2.0  # what every value of a row with a failed run counts as: log of its ratio
 FREE_BIAS = 1.05  # mean bias of a column, up or down, that is not punished
 BIAS_WEIGHT = 2.0
+RESISTANCE_WEIGHT = 0.5
 
 
 def cases(rows, seeds):
@@ -22,6 +24,11 @@ def cases(rows, seeds):
         for road_class, speed in rows
         for k in range(seeds)
     ]
+
+
+def level_cases(rows):
+    """Return the cases on level ground of one candidate: one for each speed of the rows (class, speed)."""
+    return [ResistanceCase(speed) for speed in sorted({speed for _, speed in rows})]
 
 
 def ratios(results, paper):
@@ -49,15 +56,25 @@ def ratios(results, paper):
     return ours / np.array(list(paper.values())), float(scatter)
 
 
-def objective(ratios):
-    """Return the objective of ratios (rows, 6): rms(log(ratio)) and a penalty on columns off on average.
+def objective(ratios, resistance):
+    """Return the objective of ratios (rows, 6) and of the running resistance over each end of its range (speeds, 2).
 
-    The penalty is the mean over the columns of how far the mean of |log(ratio)| lies outside `FREE_BIAS`.
+    Of the table rms(log(ratio)) and a penalty on columns off on average, the mean over the columns of how far the mean
+    of |log(ratio)| lies outside `FREE_BIAS`. Of the resistance `RESISTANCE_WEIGHT` times the root mean square of how
+    far it lies outside its range, as a logarithm. Both count `FAILED` where a run failed.
     """
     logs = np.log(ratios)
     logs[~np.isfinite(logs).all(axis=1)] = FAILED
     bias = np.maximum(0.0, np.abs(logs.mean(axis=0)) - np.log(FREE_BIAS))
-    return float(np.sqrt(np.mean(np.square(logs))) + BIAS_WEIGHT * bias.mean())
+    table = np.sqrt(np.mean(np.square(logs))) + BIAS_WEIGHT * bias.mean()
+    outside = np.nan_to_num(resistance_outside(resistance), nan=FAILED)
+    return float(table + RESISTANCE_WEIGHT * np.sqrt(np.mean(np.square(outside))))
+
+
+def resistance_outside(resistance):
+    """Return by how much, as a logarithm, a resistance over each end of its range (..., 2) lies outside that range."""
+    over_low, over_high = np.log(np.moveaxis(np.asarray(resistance), -1, 0))
+    return np.maximum(0.0, np.maximum(-over_low, over_high))
 
 
 def _levels(result):

@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib.ticker import MaxNLocator  # noqa: E402
 
-from ..paper.paper_table import SENSORS  # noqa: E402
+from ..paper.paper_table import SENSORS, error_factor  # noqa: E402
 from ..paper.table1_picture import AXES  # noqa: E402
 from .sensitivity import PER  # noqa: E402
 
@@ -50,6 +50,34 @@ def convergence_picture(file, plan, candidates):
     figure.suptitle("Calibration: dark is good, the ring is the best; panels reach from bound to bound", fontsize=12)
     figure.savefig(file, dpi=110, format="png")
     plt.close(figure)
+
+
+def frontier_picture(file, candidates):
+    """Draw what the table costs in running resistance: all `history.Candidate`s whose runs were good, to a PNG file."""
+    good = [each for each in candidates if np.isfinite(each.ratios).all() and np.isfinite(each.resistance).all()]
+    factor = np.array([error_factor(each.ratios, 1.0) for each in good])
+    excess = np.array([typical_excess(each.resistance) for each in good])
+    objective = np.array([each.objective for each in good])
+    figure, plot = plt.subplots(figsize=(8.0, 5.6), layout="constrained")
+    plot.plot(excess, factor, ".", color="0.65", label="candidate")
+    order = np.lexsort((factor, excess))
+    best = np.minimum.accumulate(factor[order])
+    plot.plot(excess[order], best, color="#d1662b", drawstyle="steps-post", label="frontier")
+    plot.plot(excess[objective.argmin()], factor[objective.argmin()], "o", color="none", markeredgecolor="k",
+              markersize=9, label="least objective")  # fmt: skip
+    plot.axvline(1.0, color="k", linestyle="--", linewidth=0.9, label="highest published formula")
+    plot.set_xlabel("running resistance over the highest published formula, geometric mean over the speeds")
+    plot.set_ylabel("error factor of the table")
+    plot.set_title("What the table costs in running resistance", fontsize=12)
+    plot.grid(alpha=0.3)
+    plot.legend()
+    figure.savefig(file, dpi=110, format="png")
+    plt.close(figure)
+
+
+def typical_excess(resistance):
+    """Return the geometric mean over the speeds of a resistance (speeds, 2) over the high end of its range."""
+    return float(np.exp(np.log(resistance[:, 1]).mean()))
 
 
 def sensitivity_picture(file, plan, rows, sensitive):

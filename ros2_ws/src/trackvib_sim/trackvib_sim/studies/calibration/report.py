@@ -4,7 +4,7 @@ import numpy as np
 
 from ..case import BAND
 from ..paper.paper_table import COLUMNS, column_bias, error_factor
-from .objective import BIAS_WEIGHT, FREE_BIAS
+from .objective import BIAS_WEIGHT, FREE_BIAS, RESISTANCE_WEIGHT
 from .sensitivity import PER, REACH
 
 ALIKE = 1.05  # neighbours have an objective up to this multiple of the best
@@ -32,6 +32,7 @@ def report(plan, start, history, rows, sensitive):
             _head(plan, history, rows, best, first),
             _columns(best, first),
             _rows(rows, best),
+            _resistance(rows, history, best, first),
             _parameters(plan, start, best, neighbours, sensitive),
             _sources(plan),
         ]
@@ -47,7 +48,8 @@ def _head(plan, history, rows, best, first):
 (class {named} m/s).
 RMS over {BAND[0]:g}-{BAND[1]:g} Hz during {plan.measuring:g} s, {plan.seeds} runs a row.
 Objective: rms(log(ours / paper)) over all numbers, plus {BIAS_WEIGHT:g} times what the mean of log(ours / paper)
-of a column exceeds log({FREE_BIAS:g}), up or down, on average over the columns.
+of a column exceeds log({FREE_BIAS:g}), up or down, on average over the columns, plus {RESISTANCE_WEIGHT:g} times
+the rms over the speeds of how far the running resistance lies outside the published formulas, as a logarithm.
 Search: CMA-ES, {generations} generations of {plan.population}, seed {plan.seed}.
 
 | | start | calibrated |
@@ -76,6 +78,18 @@ def _rows(rows, best):
     for (road_class, speed), ratios in zip(rows, best.ratios, strict=True):
         lines.append(_line(road_class, f"{speed:g}", *map(_plain, (*ratios, error_factor(ratios, 1.0)))))
     return "\n".join(lines) + "\n"
+
+
+def _resistance(rows, history, best, first):
+    good = [each for each in history.candidates if np.isfinite(each.ratios).all()]
+    table = min(good, key=lambda each: error_factor(each.ratios, 1.0), default=best)
+    lines = ["## Running resistance", "", "On level ground, over the lowest and the highest published formula.", ""]
+    speeds = sorted({speed for _, speed in rows})
+    lines += [_line("", *(f"{speed:g} m/s" for speed in speeds), "error factor"), "|" + "---|" * (len(speeds) + 2)]
+    for name, each in (("start", first), ("calibrated", best), ("best by the table alone", table)):
+        cells = (f"{_plain(low)}, {_plain(high)}" for low, high in each.resistance)
+        lines.append(_line(name, *cells, _plain(error_factor(each.ratios, 1.0))))
+    return "\n".join([*lines, "", "![frontier](frontier.png)"]) + "\n"
 
 
 def _parameters(plan, start, best, neighbours, sensitive):

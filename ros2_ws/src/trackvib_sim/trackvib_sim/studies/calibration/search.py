@@ -10,9 +10,13 @@ import cma
 import numpy as np
 from distributed import Client
 
+from ...simulation.run_in import CannotRoll
+from ...simulation.simulation import RunFailed
 from ...vehicle.vehicle_file import parse_vehicle
 from ..case import Result, drive
 from ..paper.paper_table import error_factor
+from ..resistance.case import ResistanceCase, pull
+from ..resistance.table import mass_of, published_range
 from ..workers import finished
 from .history import Candidate
 from .objective import objective, ratios
@@ -26,7 +30,7 @@ class Candidates(NamedTuple):
     client: Client
     vehicle_text: str  # what is calibrated
     plan: Plan
-    cases: list  # of one candidate, as `calibration_objective.cases` gives them
+    cases: list  # of one candidate: first those of `objective.cases`, then those of `objective.level_cases`
     paper: dict  # (class, speed) -> values (6,)
 
     def evaluate(self, history, wanted, advance):
@@ -51,18 +55,30 @@ class Candidates(NamedTuple):
             results[k][case] = result
             if len(results[k]) == count:
                 place, values = missing[k]
-                found, scatter = ratios([results[k][case] for case in range(count)], self.paper)
-                history.append(Candidate(*place, objective(found), scatter, values, found))
+                level = [case for case in range(count) if isinstance(self.cases[case], ResistanceCase)]
+                found, scatter = ratios([results[k][case] for case in range(count) if case not in level], self.paper)
+                resistance = np.array([results[k][case] for case in level])
+                history.append(
+                    Candidate(*place, objective(found, resistance), scatter, values, found, resistance)
+                )
             advance(1)
         return [history.find(*place, values) for place, values in wanted.items()]
 
 
 def attempt(vehicle_text, case, duration):
-    """Return the `drive.Result` of a case; a vehicle that cannot be built or cannot stand has failed, too."""
+    """Return what a case gave; a vehicle that cannot be built or cannot stand has failed, too.
+
+    That is the `case.Result` of a drive over a road, and of a case on level ground the running resistance over both
+    ends of its range, not a number if the run failed.
+    """
     try:
-        return drive(_vehicle(vehicle_text), case, duration)
-    except ValueError as error:
-        return Result(f"failed: {error}", {}, None)
+        vehicle = _vehicle(vehicle_text)
+        if isinstance(case, ResistanceCase):
+            return pull(vehicle, case) / np.array(published_range(mass_of(vehicle), case.speed))
+        return drive(vehicle, case, duration)
+    except (ValueError, CannotRoll, RunFailed) as error:
+        failed = np.full(2, np.nan) if isinstance(case, ResistanceCase) else Result(f"failed: {error}", {}, None)
+        return failed
 
 
 @lru_cache(maxsize=4)  # reading takes a tenth of a run's time, and one candidate's runs come one after the other

@@ -13,8 +13,8 @@ from ..case_store import program, text_hash
 from ..paper.paper_table import error_factor, read_table
 from ..workers import workers
 from .history import History
-from .objective import cases
-from .pictures import convergence_picture, sensitivity_picture
+from .objective import cases, level_cases
+from .pictures import convergence_picture, frontier_picture, sensitivity_picture
 from .plan import read_plan
 from .report import report
 from .search import Candidates, search
@@ -54,7 +54,8 @@ def run_calibrate(plan_file, vehicle_file, generations, scheduler, out):
     )
     columns = (Description(), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with workers(scheduler, CPU_COUNT) as client, Progress(*columns, console=console) as progress:
-        candidates = Candidates(client, text, plan, cases(paper, plan.seeds), paper)
+        runs = cases(paper, plan.seeds) + level_cases(paper)
+        candidates = Candidates(client, text, plan, runs, paper)
         start = plan.values(plan.shares([parameter.of(vehicle) for parameter in plan.parameters]))
         search(candidates, history, start, generations or plan.generations, progress)
         best = history.best
@@ -66,13 +67,15 @@ def run_calibrate(plan_file, vehicle_file, generations, scheduler, out):
         sensitivity_picture(file, plan, list(paper), sensitive)
     with new_file(folder / "convergence.png") as file:
         convergence_picture(file, plan, history.candidates)
+    with new_file(folder / "frontier.png") as file:
+        frontier_picture(file, history.candidates)
     with new_file(folder / "calibration.md") as file:
         file.write(report(plan, start, history, list(paper), sensitive).encode())
     console.print(
         f"objective {best.objective:.3f}, at the start {history.candidates[0].objective:.3f}; "
         f"error factor over {len(paper)} rows {error_factor(best.ratios, 1.0):.3f}"
     )
-    left = "vehicle.yaml, calibration.md, convergence.png, sensitivity.png, sensitivity.csv, history.csv"
+    left = "vehicle.yaml, calibration.md, convergence.png, frontier.png, sensitivity.png, sensitivity.csv, history.csv"
     console.print(f"left in {folder}: {left}", soft_wrap=True)
 
 

@@ -12,14 +12,15 @@ from ...analysis.settling import SHORTEST_SETTLING, VEHICLE_BEHIND, settling_tim
 from ...analysis.vibration import band_limited, rms
 from ...numerics.units import NANO
 from ...road.bump import Bump
-from ...road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road
+from ...road.iso8608 import FADE, LEVEL_UNTIL
 from ...simulation.closed_loop import run_closed_loop
 from ...simulation.run_in import CannotRoll
 from ...simulation.settings import RunSettings
-from ...simulation.simulation import CHASSIS, POWERTRAIN, RunFailed, Simulation
+from ...simulation.simulation import Probe, RunFailed, Simulation
 from ...vehicle.engine import RunUp
+from ...vehicle.sensors import sensors_of
 from ...vehicle.system import Operation
-from ..case import GOOD, RATES, rates_for
+from ..case import BAND, GOOD, RATES, rates_for, rough_road
 
 PASSIVE, PASSIVE_CURRENT = "passive", 1.0  # A; the coils of every run carry it before the law's first answer
 DRIVING, IDLE, HIGHEST = 1650.0, 450.0, 2100.0  # r/min
@@ -38,7 +39,7 @@ class Scenario(NamedTuple):
     engine_speed: float  # r/min, before any run-up
     settling: float
     measuring: float
-    road: object  # function of the seed
+    road: object  # function of vehicle and seed
     varies: bool = True  # whether seed and track phase matter
     run_up: RunUp | None = None
 
@@ -46,14 +47,14 @@ class Scenario(NamedTuple):
 def _rough(road_class, speed):
     title = f"class {road_class}, {speed:g} m/s"
     settling = settling_time(speed, LEVEL_UNTIL + FADE)
-    return Scenario(title, speed, DRIVING, settling, 5.0, lambda seed: Iso8608Road(road_class, seed, LEVEL_UNTIL, FADE))
+    return Scenario(title, speed, DRIVING, settling, 5.0, lambda vehicle, seed: rough_road(vehicle, road_class, seed))
 
 
 def _bump(speed):
     over = (LENGTH + 2.0 * VEHICLE_BEHIND) / speed  # from the foremost wheels' meeting it to the rearmost's leaving it
     start = SHORTEST_SETTLING * speed + VEHICLE_BEHIND
     title = f"bump of {HEIGHT:g} m x {LENGTH:g} m, {speed:g} m/s"
-    return Scenario(title, speed, DRIVING, SHORTEST_SETTLING, over + RINGING, lambda _: Bump(HEIGHT, LENGTH, start))
+    return Scenario(title, speed, DRIVING, SHORTEST_SETTLING, over + RINGING, lambda *_: Bump(HEIGHT, LENGTH, start))
 
 
 def _run_up():
@@ -61,7 +62,7 @@ def _run_up():
     title = f"standing, engine {IDLE:g}-{HIGHEST:g} r/min"
     level = Bump(0.0, LENGTH, 0.0)
     duration = (HIGHEST - IDLE) / RAMP
-    return Scenario(title, 0.0, IDLE, CALMING, duration, lambda _: level, varies=False, run_up=ramp)
+    return Scenario(title, 0.0, IDLE, CALMING, duration, lambda *_: level, varies=False, run_up=ramp)
 
 
 SCENARIOS = {"e10": _rough("E", 10.0), "c20": _rough("C", 20.0), "run_up": _run_up(), "bump": _bump(5.0)}
@@ -106,29 +107,35 @@ def control(vehicle, case):
     values = {"current": case.current} if case.law == PASSIVE else {}
     settled, measured = (round(time * RATES.control) for time in (scenario.settling, scenario.measuring))
     try:
-        simulation = Simulation(vehicle, RunSettings(operation, rates_for(vehicle), case.current))
+        simulation = Simulation(vehicle, RunSettings(operation, rates_for(vehicle), case.current), probes(vehicle))
         law = find_law(case.law)(period, **values)
-        record = run_closed_loop(simulation, scenario.road(case.seed), law, settled + measured)
+        record = run_closed_loop(simulation, scenario.road(vehicle, case.seed), law, settled + measured)
     except (CannotRoll, RunFailed) as error:
         return ControlResult(f"failed: {error}", {})
-    return ControlResult(GOOD, _levels(record, settled))
+    return ControlResult(GOOD, _levels(record, settled, simulation.settings.rates))
 
 
-def _levels(record, settled):
-    rate = RATES.control
-    vertical = record.specific_force[:, [POWERTRAIN, CHASSIS], 2]
+def probes(vehicle):
+    """Return where levels are measured: powertrain and hull at their sensors."""
+    chassis, powertrain, *_ = sensors_of(vehicle)
+    return [Probe(sensor.body, sensor.place) for sensor in (powertrain, chassis)]
+
+
+def _levels(record, settled, rates):
+    begin, vertical = settled * rates.steps, record.probed[:, :, 2]
     # filtered before they are cut, so that the filters' own settling is cut as well
-    powertrain, hull = rms(band_limited(vertical, rate)[settled:])
-    powertrain_wk, hull_wk = rms(weighted(vertical, "Wk", rate)[settled:])
-    above = signal.butter(4, ABOVE_BAND, "highpass", fs=rate, output="sos")
+    powertrain, hull = rms(band_limited(vertical, rates.physics, BAND[1])[begin:])
+    powertrain_wk, hull_wk = rms(weighted(vertical, "Wk", rates.physics)[begin:])
+    above = signal.butter(4, ABOVE_BAND, "highpass", fs=rates.physics, output="sos")
+    high = signal.sosfiltfilt(above, band_limited(vertical[:, 0], rates.physics, BAND[1]))
     force = record.force[:, :, 2].sum(axis=1, keepdims=True)
     levels = {
         "powertrain": powertrain,
         "powertrain_wk": powertrain_wk,
-        "powertrain_high": rms(signal.sosfiltfilt(above, vertical[:, 0])[settled:]),
+        "powertrain_high": rms(high[begin:]),
         "hull": hull,
         "hull_wk": hull_wk,
-        "force": rms(band_limited(force, rate)[settled:])[0] / 1e3,
+        "force": rms(band_limited(force, rates.control)[settled:])[0] / 1e3,
         "travel": np.ptp(record.deflection[settled:, :, 2], axis=0).max() * 1e3,
         "current": record.coil_current[settled:].mean(),
     }

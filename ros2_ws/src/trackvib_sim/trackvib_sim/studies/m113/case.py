@@ -7,7 +7,8 @@ import numpy as np
 from ...simulation.open_loop import CHUNK, run_open_loop
 from ...simulation.run_in import CannotRoll
 from ...simulation.settings import Rates, RunSettings
-from ...simulation.simulation import CHASSIS, RunFailed, Simulation
+from ...simulation.simulation import Probe, RunFailed, Simulation
+from ...vehicle.sensors import sensors_of
 from ...vehicle.system import Operation
 from ..case import GOOD
 from .measures import ROAD_BORNE, levels, within
@@ -45,7 +46,8 @@ def drive_m113(vehicle, case):
     driven = VARIANTS[case.variant].change(vehicle)
     settings = RunSettings(Operation(reference.speed, 0.0, False, case.track_phase), RATES, 0.0)
     try:
-        simulation = Simulation(driven, settings)
+        chassis, *_ = sensors_of(driven)
+        simulation = Simulation(driven, settings, [Probe(chassis.body, chassis.place)])
         vertical, place, forces = _drive(simulation, road_of(case.road), reference)
     except (CannotRoll, RunFailed) as error:
         return M113Result(f"failed: {error}", {}, [])
@@ -84,4 +86,5 @@ def _drive(simulation, road, reference):
 
     run = run_open_loop(simulation, road, before + len(reference.vertical), look)
     place = np.interp(np.arange(len(run.time)), begun, distances)
-    return run.specific_force[before:, CHASSIS, 2], place[before:], np.array(forces[before // CHUNK :])
+    vertical = run.probed[:, 0, 2].reshape(-1, RATES.steps).mean(axis=1)  # as the reference has it
+    return vertical[before:], place[before:], np.array(forces[before // CHUNK :])

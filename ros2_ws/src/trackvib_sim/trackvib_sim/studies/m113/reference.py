@@ -11,11 +11,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ...data import m113_histories_file
-from ...road.iso8608 import Iso8608Road
+from ...road.iso8608 import Exponential, Iso8608Road
 
 LEVEL, ROUGH = "level", "C"
 RATE = 1000  # means a second
-_ROADS = {ROUGH: Iso8608Road("C", 1, 2.0, 8.0)}  # the very road that the code was given, to 5e-6 m
+_ROADS = {ROUGH: Iso8608Road("C", 1, 2.0, 8.0, Exponential(1.4))}  # the very road that the code was given, to 5e-6 m
 _HEAD, _CASES = 2, 4  # lines
 
 

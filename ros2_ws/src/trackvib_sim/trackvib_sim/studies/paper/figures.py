@@ -13,7 +13,7 @@ from ...road.iso8608 import FADE, Iso8608Road
 from ...simulation.simulation import RunFailed
 from ...vehicle.engine import IMPOSED_ORDER
 from ...vehicle.vehicle_file import read_vehicle
-from ..case import BAND, ENGINE_SPEED, RATES, Case
+from ..case import BAND, ENGINE_SPEED, Case
 from ..case_store import CaseStore
 from ..run_missing import run_missing
 from . import paper_figures
@@ -93,7 +93,7 @@ def draw(folder, vehicle, found, comparison):
         ),
         "spectra.png": (
             f"Vertical power spectral density, {shown}, {band}",
-            paper_figures.spectrum_picture, (RATES.control, force["Rui method"], link_passing, orders),
+            paper_figures.spectrum_picture, (ours.rate, force["Rui method"], link_passing, orders),
         ),
         "levels.png": (
             f"RMS acceleration against speed and road class, seed {SEED}, {band}",
@@ -101,7 +101,7 @@ def draw(folder, vehicle, found, comparison):
         ),
         "solvers.png": (
             f"Rui method and Pinocchio as second solver, {shown}, {band}",
-            paper_figures.solver_picture, (RATES.control, force, comparison.levels()),
+            paper_figures.solver_picture, (ours.rate, force, comparison.levels()),
         ),
     }  # fmt: skip
     for name, (title, picture, arguments) in pictures.items():

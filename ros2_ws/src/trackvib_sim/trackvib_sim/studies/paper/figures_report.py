@@ -6,7 +6,7 @@ import numpy as np
 
 from ...analysis.numbers import SENSORS
 from ...analysis.vibration import psd
-from ..case import BAND, GOOD, MEASURING, RATES
+from ..case import BAND, GOOD, MEASURING
 from .paper_figures import AXES, VERTICAL
 
 NEAR = 0.1  # of the frequency of link passing
@@ -76,7 +76,7 @@ def _highest_lines(comparison, link_passing):
     yield f"| sensor | solver | within {NEAR:.0%} of link passing | above {LINES_FROM:g} Hz |"
     yield "|---|---|---|---|"
     for sensor, (solver, drive) in product(SENSORS, comparison.drives.items()):
-        frequency, density = psd(drive.specific_force[sensor][:, VERTICAL], RATES.control)
+        frequency, density = psd(drive.specific_force[sensor][:, VERTICAL], drive.rate)
         parts = np.abs(frequency - link_passing) < NEAR * link_passing, frequency > LINES_FROM
         near, above = (frequency[part][density[part].argmax()] for part in parts)
         yield f"| {sensor} | {solver} | {near:.0f} Hz | {above:.0f} Hz |"

@@ -43,24 +43,23 @@ class PinocchioSimulation(Simulation):
     def advance(self, demanded):
         """As `Simulation.advance`."""
         system, state, work, road = self.system, self.state, self._work, self._road_around(1)
-        steps = self.settings.rates.steps
-        self._next.specific_force[:] = self._next.angular_velocity[:] = 0.0
-        for _ in range(steps):
+        for step in range(self.settings.rates.steps):
             drive_coils(system.coil, demanded, state.coils)
             add_forces(system, state, road, work)
             self._solve()
-            status = end_step(system, state, road, work, self.points, self._next, 1.0 / steps)
+            status = end_step(system, state, road, work, self.points, self._next, step)
             if status != Status.GOOD:
                 self._end_periods(status, 0)
         observe(system, state, work.motion, self._next)
         self._end_periods(Status.GOOD, 1)
         self.sample, self._next = self._next, self.sample
 
-    def advance_many(self, demanded, force, speed):
+    def advance_many(self, demanded, force, probed, speed):
         """As `Simulation.advance_many`."""
         for k in range(len(speed)):
             self.advance(demanded)
-            force[k], speed[k] = self.sample.specific_force, self.sample.hull_velocity[0, 0]
+            sample = self.sample
+            force[k], probed[k], speed[k] = sample.specific_force, sample.probed, sample.hull_velocity[0, 0]
 
     def _solve(self):
         """Fill the response with Pinocchio's accelerations and note how far ours are from them."""

@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...road.bump import Bump
+from ...simulation.open_loop import run_open_loop
 from ...simulation.run_in import CannotRoll
 from ...simulation.settings import Rates, RunSettings
 from ...simulation.simulation import RunFailed, Simulation
@@ -16,6 +18,7 @@ AROUND = 30.0  # m of road before and behind a vehicle
 SPACING = 0.5  # m
 TRACK_PHASE = 0.25  # neither in step nor in opposition
 CURRENT = 1.0  # A
+LEVEL = Bump(0.0, 1.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -34,6 +37,29 @@ class ResistanceResult:
     drive: float | None  # W, mean power of the sprockets' drive
     heat: dict[str, float]  # W by the names of `Part` in small letters; empty where failed
     left_over: float | None  # part of the drive's work that is neither heat nor held
+
+
+def pull(vehicle, case):
+    """Return the mean force [N] that keeps a vehicle's speed in a case, without an account of where it goes.
+
+    It is the driver's integral, which alone is left where speed is steady.
+
+    Raises
+    ------
+    CannotRoll, RunFailed
+        The vehicle leaves the valid range.
+    """
+    rates = rates_for(vehicle)
+    simulation = Simulation(vehicle, RunSettings(Operation(case.speed, 0.0, False, TRACK_PHASE), rates, CURRENT))
+    settled, end = (round(time * rates.control) for time in (settling(case.speed), settling(case.speed) + MEASURING))
+    forces = []
+
+    def look(done):
+        if done > settled:
+            forces.append(float(simulation.state.speed_integral[0]))
+
+    run_open_loop(simulation, LEVEL, end, look)
+    return float(np.mean(forces))
 
 
 def roll(vehicle, case):

@@ -37,6 +37,12 @@ def published(mass, speed):
     return {name: mass / TONNE * formula(KMH * speed) for name, formula in FORMULAS.items()}
 
 
+def published_range(mass, speed):
+    """Return the lowest and the highest of the forces that `published` gives [N]."""
+    forces = published(mass, speed).values()
+    return min(forces), max(forces)
+
+
 def force(result):
     """Return the driving force of a good result [N]."""
     return result.drive / result.speed
