@@ -8,7 +8,7 @@ import mr_mount_controller.laws
 import numpy as np
 import trackvib_sim.rui
 from mr_mount_controller.laws import find_law, shipped_laws
-from mr_mount_controller.mount import HIGHEST_CURRENT, LOWEST_CURRENT, current_for_damping, damping, stiffness
+from mr_mount_controller.mount import HIGHEST_CURRENT, LOWEST_CURRENT, PUBLISHED
 from mr_mount_controller.node import PARAMETERS as CONTROLLER
 from mr_mount_controller.node_base.topics import TOPICS
 from trackvib_sim.nodes.player import PARAMETERS as PLAYER
@@ -74,11 +74,11 @@ def laws():
 
 def mount():
     """Stiffness and damping of a mount at some currents, that of the most damping among them."""
-    firmest = round(current_for_damping(np.inf), 2)
+    firmest = round(PUBLISHED.current_for_damping(np.inf), 2)
     rows = [("current, A", "k, kN/mm", "c, kN s/m")]
     for current in (LOWEST_CURRENT, 0.8, 1.0, 2.0, 3.0, firmest, HIGHEST_CURRENT):
         most = " (most)" if current == firmest else ""
-        rows.append((f"{current:g}", f"{1e-6 * stiffness(current):.2f}", f"{1e-3 * damping(current):.1f}{most}"))
+        rows.append((f"{current:g}", f"{1e-6 * PUBLISHED.stiffness(current):.2f}", f"{1e-3 * PUBLISHED.damping(current):.1f}{most}"))
     return rows
 
 

@@ -12,16 +12,9 @@ from mr_mount_controller.laws.clipped_optimal import (
     regulator_gain,
     weights,
 )
-from mr_mount_controller.laws.mount_model import (
-    CENTRE_RATIO,
-    HINGE_INERTIA,
-    HINGE_STIFFNESS,
-    HULL_MASS,
-    MOUNTS,
-    POWERTRAIN_MASS,
-    mount_model,
-)
-from mr_mount_controller.mount import damping, stiffness
+from mr_mount_controller.laws.mount_model import mount_model
+from mr_mount_controller.mount import PUBLISHED
+from mr_mount_controller.mounting import DEFAULT_CARRIED, PAIR
 from numpy.testing import assert_allclose
 
 PERIOD = 1e-3
@@ -31,7 +24,7 @@ TRAVEL, FORCE = 3e-3, 2e4
 @pytest.fixture(scope="module")
 def model():
     """The model at the soft current of the law."""
-    return mount_model(0.8, 2)
+    return mount_model(0.8, PAIR)
 
 
 def stable_subspace(a, b, q, r, n):
@@ -50,13 +43,14 @@ def stable_subspace(a, b, q, r, n):
 @pytest.mark.parametrize("current", [0.8, 3.0])
 def test_powertrain_alone_has_its_own_frequency(current):
     """With the hull held, by hand: (2 k + K) over the powertrain's inertia at the mounts, and its damping."""
-    model = mount_model(current, 2)
+    model = mount_model(current, PAIR)
     a = model.a[np.ix_([1, 3], [1, 3])]
-    inertia = HINGE_INERTIA / MOUNTS[0] ** 2
+    carried = DEFAULT_CARRIED
+    inertia = carried.mount_mass
     # the hull moves a little with it: its mass is 36 t, the coupling r m
-    inertia -= (CENTRE_RATIO * POWERTRAIN_MASS) ** 2 / (HULL_MASS + POWERTRAIN_MASS)
-    spring = 2.0 * stiffness(current) + HINGE_STIFFNESS / MOUNTS[0] ** 2
-    assert_allclose(a, [[0.0, 1.0], [-spring / inertia, -2.0 * damping(current) / inertia]], rtol=1e-12)
+    inertia -= (carried.coupling * carried.powertrain_mass) ** 2 / (carried.hull_mass + carried.powertrain_mass)
+    spring = 2.0 * PUBLISHED.stiffness(current) + carried.other_stiffness
+    assert_allclose(a, [[0.0, 1.0], [-spring / inertia, -2.0 * PUBLISHED.damping(current) / inertia]], rtol=1e-12)
 
 
 @pytest.mark.analytic
@@ -66,7 +60,8 @@ def test_free_fall_and_rigid_push(model):
     Lagrange's equations by hand for the two unknown accelerations, checked by momentum: force = M a_hull + m a_centre.
     """
     heave, across = model.f[1, 1], model.f[0, 1] - model.f[1, 1]
-    assert HULL_MASS * heave + POWERTRAIN_MASS * (heave + CENTRE_RATIO * across) == pytest.approx(1.0)
+    powertrain = DEFAULT_CARRIED.powertrain_mass * (heave + DEFAULT_CARRIED.coupling * across)
+    assert DEFAULT_CARRIED.hull_mass * heave + powertrain == pytest.approx(1.0)
 
 
 @pytest.mark.analytic
@@ -113,7 +108,7 @@ def test_filter_finds_the_motion_of_the_model(sample, source):
     integrates with corners at 0.5 and 2.5 Hz: some 2.5 / 7 of the deflection, less of its rate.
     """
     law = ClippedOptimal(PERIOD, corner=0.2, firm_current=0.8)
-    model, w = mount_model(0.8, 2), 2.0 * np.pi * 7.0
+    model, w = mount_model(0.8, PAIR), 2.0 * np.pi * 7.0
     response = np.linalg.solve(1j * w * np.eye(4) - model.a, model.g[:, [source]] * 3000.0)[:, 0]
     measured = model.c @ response + model.f[:, source] * 3000.0
     errors, sizes = [], []

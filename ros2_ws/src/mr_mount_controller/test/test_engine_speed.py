@@ -5,9 +5,11 @@ import pytest
 from mr_mount_controller.laws.base import Sample
 from mr_mount_controller.laws.engine_order import EngineOrder
 from mr_mount_controller.laws.engine_speed import EngineSpeedEstimator
-from mr_mount_controller.laws.mount_model import CENTRE, HINGE_INERTIA, MOUNTS, POWERTRAIN_MASS
+from mr_mount_controller.mounting import DEFAULT_CARRIED, PAIR
 
 PERIOD, FINE = 1e-3, 10
+POWERTRAIN_MASS, HINGE_INERTIA = DEFAULT_CARRIED.powertrain_mass, DEFAULT_CARRIED.pivot_inertia
+CENTRE, MOUNTS = DEFAULT_CARRIED.centre, DEFAULT_CARRIED.sensor
 STILL = (0.0, 0.0, 0.0)
 RUN_UP = (450.0, 2100.0, 40.0)  # from, to [r/min], time [s]
 
@@ -44,7 +46,7 @@ def constant(speed, seconds):
 
 def tracked(stream):
     """The estimates, nan where not known."""
-    estimator = EngineSpeedEstimator(PERIOD)
+    estimator = EngineSpeedEstimator(PERIOD, DEFAULT_CARRIED)
     return np.array([np.nan if speed is None else speed for speed in map(estimator.update, stream)])
 
 
@@ -94,8 +96,11 @@ def test_engine_that_stops_is_lost():
 
 @pytest.mark.property
 def test_law_is_soft_above_the_crossover_only():
-    """At 1650 r/min the second order, 55 Hz, lies above the crossover; one of a fifth of that lies in the resonance."""
-    above, within = EngineOrder(PERIOD), EngineOrder(PERIOD, order=0.5, resonance=20.0)
+    """At 1650 r/min the second order, 55 Hz, lies above the crossover of the default vehicle, 11 Hz, and below that of
+    one whose powertrain is held so that it is 80 Hz."""
+    above, within = EngineOrder(PERIOD), EngineOrder(PERIOD)
+    stiffer = DEFAULT_CARRIED._replace(other_stiffness=(2.0 * np.pi * 57.0) ** 2 * DEFAULT_CARRIED.mount_mass)
+    within.run_on(PAIR._replace(carried=stiffer))
     for sample in samples(constant(1650, 3.0)):
         currents = above.update(sample), within.update(sample)
         if sample.time == PERIOD:

@@ -5,15 +5,10 @@ from math import sqrt
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mr_mount_controller.mount import (
-    CARRIED_MASS,
-    HIGHEST_CURRENT,
-    LOWEST_CURRENT,
-    RUBBER_DAMPING_RATIO,
-    current_for_damping,
-    damping,
-    stiffness,
-)
+from mr_mount_controller.mount import HIGHEST_CURRENT, LOWEST_CURRENT, PUBLISHED
+
+CARRIED_MASS, RUBBER_DAMPING_RATIO = PUBLISHED.carried_mass, PUBLISHED.rubber_damping_ratio
+stiffness, damping, current_for_damping = PUBLISHED.stiffness, PUBLISHED.damping, PUBLISHED.current_for_damping
 
 FIRMEST = 3.71  # A, where the slope of c(I) is zero
 

@@ -13,7 +13,6 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import expm, solve, solve_continuous_are
 
-from ..mount import COIL_LAG, damping, stiffness
 from ..node_base.parameters import Parameter
 from .mount_model import DEFLECTION, mount_model
 from .semi_active import SEMI_ACTIVE, DampingLaw
@@ -38,11 +37,10 @@ class ClippedOptimal(DampingLaw):
     def reset(self):
         """Forget the motion; the coils are taken to be soft."""
         super().reset()
-        self._gain, self._filter = _designed(
-            self.soft_current, self.mounting.coils, self.travel, self.force, self.period
-        )
-        self._nominal = stiffness(self.soft_current), damping(self.soft_current)
-        self._coil_step = 1.0 - exp(-self.period / COIL_LAG)
+        self._gain, self._filter = _designed(self.soft_current, self.mounting, self.travel, self.force, self.period)
+        curve = self.mounting.curve
+        self._nominal = curve.stiffness(self.soft_current), curve.damping(self.soft_current)
+        self._coil_step = 1.0 - exp(-self.period / curve.coil_lag) if curve.coil_lag > 0.0 else 1.0
         self._state = 0.0, 0.0, 0.0, 0.0
         self._coils = [self.soft_current] * self.mounting.coils
 
@@ -58,7 +56,8 @@ class ClippedOptimal(DampingLaw):
         """Take the filter a period on from the `estimator.Motion` at the sensors, and the regulator's force from it."""
         _, d, _, d_rate = self._state
         k, c = self._nominal
-        force = -sum((stiffness(coil) - k) * d + (damping(coil) - c) * d_rate for coil in self._coils)
+        curve = self.mounting.curve
+        force = -sum((curve.stiffness(coil) - k) * d + (curve.damping(coil) - c) * d_rate for coil in self._coils)
         force = min(max(force, -_LARGEST_FORCE), _LARGEST_FORCE)
         self._state = z, d, z_rate, d_rate = _product(
             self._filter, (*self._state, force, motion.acceleration, motion.base_acceleration)
@@ -75,9 +74,9 @@ class ClippedOptimal(DampingLaw):
 
 
 @cache
-def _designed(current, coils, travel, force, period):
-    """Return gain and filter; the same for every run on as many coils."""
-    model = mount_model(current, coils)
+def _designed(current, mounting, travel, force, period):
+    """Return gain and filter; the same for every run on the same mounts."""
+    model = mount_model(current, mounting)
     gain = _rounded(regulator_gain(model, travel, force))[0]
     return gain, _rounded(discrete_filter(model, kalman_gain(model), period))
 

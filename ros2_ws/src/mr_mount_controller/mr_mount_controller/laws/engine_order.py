@@ -3,7 +3,8 @@
 Damping and stiffness hold the powertrain at its resonance on the mounts, and from sqrt(2) times its frequency on they
 only pass the engine's forces on. An ideal mount is therefore stiff and damped at low frequency and soft above; see the
 review of Y. Yu, N. G. Naganathan, R. V. Dukkipati, "A literature review of automotive vehicle engine mounting systems",
-Mech. Mach. Theory 36 (2001) 123-142. Where the engine's lowest order lies is estimated from the accelerations.
+Mech. Mach. Theory 36 (2001) 123-142. The resonance on firm mounts follows from the description of the mounts; where the
+engine's lowest order lies is estimated from the accelerations.
 """
 
 from ..node_base.parameters import Parameter
@@ -12,7 +13,6 @@ from .engine_speed import EngineSpeedEstimator
 from .semi_active import FIRM, SOFT, check_currents
 
 ORDER = Parameter("order", 2.0, "Lowest order that shakes the powertrain.", "1/revolution", 0.5, 12.0)
-RESONANCE = Parameter("resonance", 8.7, "Natural frequency of the powertrain on firm mounts.", "Hz", 1.0, 50.0)
 
 _CROSSOVER = 2.0**0.5  # of the resonance; isolation begins there
 _BLEND = 1.15  # from the crossover to this multiple of it the current goes from firm to soft
@@ -21,7 +21,7 @@ _BLEND = 1.15  # from the crossover to this multiple of it the current goes from
 class EngineOrder(ControlLaw):
     """Firm while the engine's lowest order is below the crossover, or the speed not known; soft above it."""
 
-    parameters = (SOFT, FIRM, ORDER, RESONANCE)
+    parameters = (SOFT, FIRM, ORDER)
 
     def __init__(self, period, **values):
         super().__init__(period, **values)
@@ -29,14 +29,16 @@ class EngineOrder(ControlLaw):
 
     def reset(self):
         """Forget the engine's speed."""
-        self._engine = EngineSpeedEstimator(self.period)
+        carried, coils = self.mounting.carried, self.mounting.coils
+        self._engine = EngineSpeedEstimator(self.period, carried)
+        self._crossover = _CROSSOVER * carried.resonance(coils, self.mounting.curve.stiffness(self.firm_current))
 
     def update(self, sample):
         """Return the current."""
         speed = self._engine.update(sample)
         if speed is None:
             return self.firm_current
-        crossover = _CROSSOVER * self.resonance
+        crossover = self._crossover
         beyond = self.order * speed / 60.0 - crossover
         softness = min(max(beyond / ((_BLEND - 1.0) * crossover), 0.0), 1.0)
         return (1.0 - softness) * self.firm_current + softness * self.soft_current

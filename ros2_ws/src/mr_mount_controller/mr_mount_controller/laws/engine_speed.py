@@ -1,7 +1,7 @@
 """Engine speed from the powertrain's accelerations, without a tachometer.
 
-What turns the powertrain about its rear hinge, beyond what the hinge's own acceleration makes of it, is the moment of
-engine and mounts; the shaking that road and tracks pass on through the hinge drops out. Every speed that the engine may
+What turns the powertrain about its pivot, beyond what the pivot's own acceleration makes of it, is the moment of engine
+and mounts; the shaking that road and tracks pass on through a hinge drops out. Every speed that the engine may
 have is a hypothesis: it predicts lines in that moment at the engine's orders. A bank of damped resonators measures
 the power at each of them, recursively, and compares it with that of the neighbours. The product over the orders, and a
 speed that only wanders, give the probability of each hypothesis, as in [Leclere2016], here as a filter that uses the
@@ -15,8 +15,6 @@ from math import exp, pi
 
 import numpy as np
 from scipy.signal import butter
-
-from .mount_model import CENTRE, HINGE_INERTIA, MOUNTS, POWERTRAIN_MASS
 
 ORDERS = np.array([2.0, 3.0, 6.0])  # of a twelve-cylinder engine, cycles a revolution
 SPEEDS = np.arange(250.0, 2201.0, 10.0)  # r/min
@@ -45,9 +43,11 @@ class EngineSpeedEstimator:
     ----------
     period : float
         Sampling period [s].
+    carried : mounting.Carried
+        The powertrain.
     """
 
-    def __init__(self, period):
+    def __init__(self, period, carried):
         frequency = SPEEDS * ORDERS[:, None] / 60.0
         seen = frequency < 0.45 / period  # lines near half the sampling rate and above it are not
         decay = np.exp(-period / MEMORY)[:, None]
@@ -56,7 +56,7 @@ class EngineSpeedEstimator:
         self._scale = np.where(seen, (2.0 * (1.0 - decay)) ** 2, 0.0)
         self._resonators = np.zeros_like(self._turn)
         self._neighbours = _window_sums(np.ones_like(frequency))
-        self._moment = HingeMoment(period)
+        self._moment = PivotMoment(period, carried)
         self._probability = np.full(SPEEDS.size, _CHANGE / SPEEDS.size)
         self._no_engine = 1.0
         self._hop = max(1, round(_LOOK / period))
@@ -105,15 +105,15 @@ class EngineSpeedEstimator:
         return ahead if ahead >= SLOWEST else None
 
 
-class HingeMoment:
-    """Moment of engine and mounts on the powertrain about its hinge's y axis, above the mounts' own frequencies.
+class PivotMoment:
+    """Moment of engine and mounts on the powertrain about its pivot's y axis, above the mounts' own frequencies.
 
-    M = I_h alpha + m (c x a_hinge)_y: the hinge's acceleration follows from that of the sensor, which sits at the
-    mounts. Alpha is the difference of two angular rates, and the force beside it their mean.
+    M = I alpha + m (c x a)_y: the pivot's acceleration a follows from that of the sensor. Alpha is the difference of
+    two angular rates, and the force beside it their mean.
     """
 
-    def __init__(self, period):
-        self._period = period
+    def __init__(self, period, carried):
+        self._period, self._carried = period, carried
         self._last = None
         sections = butter(4, min(_HIGH_PASS, 0.2 / period), "highpass", fs=1.0 / period, output="sos")
         self._sections = [tuple(section) for section in np.delete(sections, 3, axis=1).tolist()]
@@ -125,9 +125,11 @@ class HingeMoment:
         last_x, last_z, last_rate = self._last or (x, z, rate[1])
         self._last = x, z, rate[1]
         alpha = (rate[1] - last_rate) / self._period
-        a_x = 0.5 * (x + last_x) - alpha * MOUNTS[1]
-        a_z = 0.5 * (z + last_z) + alpha * MOUNTS[0]
-        moment = HINGE_INERTIA * alpha + POWERTRAIN_MASS * (CENTRE[1] * a_x - CENTRE[0] * a_z)
+        carried = self._carried
+        (sensor_x, sensor_z), (centre_x, centre_z) = carried.sensor, carried.centre
+        a_x = 0.5 * (x + last_x) - alpha * sensor_z
+        a_z = 0.5 * (z + last_z) + alpha * sensor_x
+        moment = carried.pivot_inertia * alpha + carried.powertrain_mass * (centre_z * a_x - centre_x * a_z)
         return self._filtered(min(max(moment, -_LARGEST), _LARGEST))
 
     def _filtered(self, value):

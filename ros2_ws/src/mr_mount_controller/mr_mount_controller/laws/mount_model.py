@@ -9,28 +9,14 @@ heave z of the hull and the deflection d of the mounts (state z, d and their rat
 
 with M and m the masses of hull and powertrain, r the distance of the powertrain's centre of mass from the hinge over
 that of the mounts, m_e its moment of inertia about the hinge over that distance squared, K the rubber of the hinge, k
-and c of one of n mounts at a fixed current, and u what all of them do beyond that. The hull's force reaches the
-powertrain through hinge and mounts alike, so that isolation by the mounts alone has its limits.
+and c of one of n mounts at a fixed current, and u what all of them do beyond that. Of a powertrain without such a hinge
+r is 1 and m_e its mass. The hull's force reaches the powertrain through hinge and mounts alike, so that isolation by
+the mounts alone has its limits. All numbers come from the description of the mounts.
 """
 
 from typing import NamedTuple
 
 import numpy as np
-
-from ..mount import damping, stiffness
-
-# the vehicle as the laws know it; the powertrain's places are from its rear hinge, (x, z) in m
-HULL_MASS = 29_980.0  # kg, with turret and gun
-SUSPENSION_STIFFNESS = 2.28e6  # N/m, all torsion bars
-SUSPENSION_DAMPING = 3.18e5  # N s/m, all shock absorbers
-POWERTRAIN_MASS = 3200.0  # kg
-POWERTRAIN_INERTIA = 2390.0  # kg m^2, about the y axis through its centre
-CENTRE = (0.5486, 0.0399)
-MOUNTS = (0.80, -0.05)
-HINGE_STIFFNESS = 2.0e5  # N m/rad
-
-HINGE_INERTIA = POWERTRAIN_INERTIA + POWERTRAIN_MASS * (CENTRE[0] ** 2 + CENTRE[1] ** 2)
-CENTRE_RATIO = CENTRE[0] / MOUNTS[0]
 
 HEAVE, DEFLECTION, HEAVE_RATE, DEFLECTION_RATE = range(4)  # of the state
 
@@ -46,16 +32,17 @@ class MountModel(NamedTuple):
     f: np.ndarray  # (2, 2)
 
 
-def mount_model(current, mounts):
-    """Return the `MountModel` about a number of mounts at a current [A]."""
-    coupling, lever = POWERTRAIN_MASS * CENTRE_RATIO, MOUNTS[0] ** 2
-    mass = np.array([[HULL_MASS + POWERTRAIN_MASS, coupling], [coupling, HINGE_INERTIA / lever]])
-    spring = np.diag([SUSPENSION_STIFFNESS, HINGE_STIFFNESS / lever + mounts * stiffness(current)])
-    damper = np.diag([SUSPENSION_DAMPING, mounts * damping(current)])
+def mount_model(current, mounting):
+    """Return the `MountModel` of a `mounting.Mounting` about a current [A] in all its coils."""
+    carried, curve, n = mounting.carried, mounting.curve, mounting.coils
+    coupling = carried.powertrain_mass * carried.coupling
+    mass = np.array([[carried.hull_mass + carried.powertrain_mass, coupling], [coupling, carried.mount_mass]])
+    spring = np.diag([carried.suspension_stiffness, carried.other_stiffness + n * curve.stiffness(current)])
+    damper = np.diag([carried.suspension_damping, n * curve.damping(current)])
     # of generalised accelerations, by state, force of the mounts, and disturbances
     by_state = -np.linalg.solve(mass, np.hstack((spring, damper)))
     by_force = np.linalg.solve(mass, np.array([[0.0], [1.0]]))
-    by_disturbance = np.linalg.solve(mass, np.array([[1.0, 1.0], [0.0, CENTRE_RATIO]]))
+    by_disturbance = np.linalg.solve(mass, np.array([[1.0, 1.0], [0.0, carried.coupling]]))
     measured = np.array([[1.0, 1.0], [1.0, 0.0]])
     zeros = np.zeros
     return MountModel(

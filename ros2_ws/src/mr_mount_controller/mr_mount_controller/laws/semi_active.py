@@ -8,7 +8,7 @@ Where the powertrain turns about a hinge only, mounts side by side move alike an
 a stiffer one as well, which no law can separate.
 """
 
-from ..mount import HIGHEST_CURRENT, LOWEST_CURRENT, current_for_damping, damping
+from ..mount import HIGHEST_CURRENT, LOWEST_CURRENT
 from ..node_base.parameters import Parameter, ParameterError
 from .base import ControlLaw
 from .estimator import MotionEstimator, levers, turning
@@ -76,9 +76,11 @@ class OnOffLaw(SemiActiveLaw):
 class DampingLaw(SemiActiveLaw):
     """The current at which a mount comes nearest to `damping_for(motion)`, between soft and firm."""
 
-    def __init__(self, period, **values):
-        super().__init__(period, **values)
-        self._softest, self._firmest = damping(self.soft_current), damping(self.firm_current)
+    def reset(self):
+        """Forget the motion."""
+        super().reset()
+        curve = self.mounting.curve
+        self._softest, self._firmest = curve.damping(self.soft_current), curve.damping(self.firm_current)
 
     def current_for(self, motion):
         """Return the current."""
@@ -87,7 +89,7 @@ class DampingLaw(SemiActiveLaw):
             return self.soft_current
         if wanted >= self._firmest:
             return self.firm_current
-        return current_for_damping(wanted)
+        return self.mounting.curve.current_for_damping(wanted)
 
     def damping_for(self, motion):
         """Return the wanted damping of a mount [N s/m], any number, in a state of `estimator.Motion`."""

@@ -22,9 +22,7 @@ def with_sensors(vehicle):
 
     def made(**items):
         given = {"seat": {"body": "turret", "place": SEAT, "divisor": 7}, "gun": {"body": "gun_mount", "place": GUN}}
-        sensors = {
-            name: SensorParameters.model_construct(**(given[name] | items.get(name, {}))) for name in given
-        }
+        sensors = {name: SensorParameters.model_construct(**(given[name] | items.get(name, {}))) for name in given}
         return vehicle.model_copy(update={"sensors": sensors})
 
     return made

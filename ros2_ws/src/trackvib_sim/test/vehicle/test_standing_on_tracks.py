@@ -89,7 +89,7 @@ def test_tracks_as_springs_stand_as_tracks_do(stood):
     assert found.position[0, 2] == pytest.approx(simple.position[0, 2], abs=0.01)
     assert found.attitude[0, 2] == pytest.approx(simple.attitude[0, 2], abs=0.001)
     suspension = standing.system.suspension
-    assert_allclose(found.hinge[suspension.row], simple.hinge[suspension.row], rtol=0, atol=0.02 / suspension.length)
+    assert_allclose(found.hinge[suspension.row], simple.hinge[suspension.row], rtol=0, atol=0.02 / suspension.reach)
 
 
 @pytest.mark.property

@@ -76,7 +76,7 @@ def test_shipped_files_fit(content):
 @pytest.mark.parametrize(
     ("path", "value"),
     [
-        (("format",), 3),
+        (("format",), 4),
         (("hull", "mass"), 17.0),
         (("hull", "mass", "unit"), "t"),
         (("hull", "mass", "value"), -1.0),

@@ -11,7 +11,7 @@ from .acceleration_numbers import measure_accelerations
 from .history import build_history
 from .levels import build_bins
 from .lines import find_lines
-from .loop_health import loop_health, mount_energy
+from .loop_health import drive, loop_health, mount_energy
 from .mount_numbers import currents, moments, mount_numbers
 from .notes import find_notes
 from .numbers import Analysis
@@ -57,7 +57,7 @@ def analyse(
     speed, speed_deviation = _speed(recording.odometry, segments.settled)
     engine_speed, lines, why_fewer = find_lines(recording, spectra, speed, speed_deviation)
     mounts, answers, energy = recording.mounts, recording.answers, mount_energy(recording)
-    names = recording.mounting.names
+    names, (force, power) = recording.mounting.names, drive(recording)
     return Analysis(
         bag=str(recording.path),
         begin=segments.begin,
@@ -69,6 +69,8 @@ def analyse(
         speed=speed,
         speed_deviation=speed_deviation,
         engine_speed=engine_speed,
+        drive_force=force,
+        drive_power=power,
         sensors=sensors,
         total_weighted={
             sensor: hypot(*(numbers.rms_weighted for numbers in axes.values())) for sensor, axes in sensors.items()

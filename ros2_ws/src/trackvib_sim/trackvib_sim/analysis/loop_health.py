@@ -1,14 +1,25 @@
 """What a recording says about the loop: its losses, and what the simulator counted."""
 
+import numpy as np
+
 from ..vehicle.mount_energy import MountEnergy
 from .stamps import losses
 
+DRIVE = ("drive_work_J", "way_m", "time")  # likewise
+LEAST_WAY = 1.0  # m, below which no force is told
 MOUNTS = tuple(f"mount_{part}_J" for part in MountEnergy._fields)  # in the simulator's diagnostics
 
 
 def loop_health(recording):
-    """Return the `losses`, and what the simulator reported last as text, but for the work on the mounts."""
-    return losses(recording) | {key: text for key, text in recording.diagnostics.items() if key not in MOUNTS}
+    """Return the `losses`, and what the simulator reported last as text, but for work and way."""
+    other = (*MOUNTS, *DRIVE[:2])
+    return losses(recording) | {key: text for key, text in recording.diagnostics.items() if key not in other}
+
+
+def drive(recording):
+    """Return mean force [N] and power [W] of the drive from the start to the simulator's last word, nan if unknown."""
+    work, way, time = (float(recording.diagnostics.get(key, "nan")) for key in DRIVE)
+    return work / way if abs(way) >= LEAST_WAY else np.nan, work / time if time > 0.0 else np.nan
 
 
 def mount_energy(recording):

@@ -152,6 +152,8 @@ class Analysis:
     speed: float = _number("m/s")  # mean forward speed of the hull
     speed_deviation: float = _number("m/s")  # its standard deviation
     engine_speed: float = _number("r/min")  # as the simulator was told
+    drive_force: float = _number("N")  # work of the drive a metre: the running resistance where speed is steady
+    drive_power: float = _number("W")  # work of the drive a second; both from the start, as the simulator told them
     sensors: dict  # sensor -> axis -> AxisNumbers
     total_weighted: dict = _number("m/s²")  # sensor -> root of the sum of the three rms_weighted squared
     lines: tuple  # `Line`s, link passing first

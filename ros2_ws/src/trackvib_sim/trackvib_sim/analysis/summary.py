@@ -1,5 +1,7 @@
 """The headline numbers of one run."""
 
+from math import isfinite
+
 
 def summarise(analysis):
     """Return the summary of a run, of its `numbers.Analysis`, as a dict of plain values, ready for JSON."""
@@ -9,7 +11,13 @@ def summarise(analysis):
         "rms_mps2": {
             sensor: {axis: numbers.rms for axis, numbers in axes.items()} for sensor, axes in analysis.sensors.items()
         },
+        "drive_N": _number(analysis.drive_force),
+        "drive_W": _number(analysis.drive_power),
         "mounts_J": analysis.mount_energy,
         "loop": analysis.loop,
         "messages": analysis.messages,
     }
+
+
+def _number(value):
+    return value if isfinite(value) else None

@@ -11,6 +11,7 @@ from ..data import find_vehicle
 from ..mount_bench.fit import fit_loops
 from ..mount_bench.harmonic import loop_numbers, shake
 from ..mount_bench.measured import read_loops
+from ..mount_bench.mount_type import mount_type
 from ..mount_bench.pictures import fit_picture, loops_picture
 from ..vehicle.coil import usable_current
 from ..vehicle.mounts import KILO, KN_PER_MM, mounts_in_order
@@ -19,11 +20,13 @@ from ..vehicle.vehicle_file import read_vehicle
 from .result_folder import all_or_nothing
 
 MILLI = 1e-3
-HIGHEST_POWER = 3  # of the fits over current, as a vehicle file has them
+CURRENTS = (0.0, 1.0, 2.0, 4.0)  # A, by default
 
 
 def run_bench(name_or_file, mount, amplitudes, frequencies, currents, out):
     """Shake a mount at all amplitudes [mm], frequencies [Hz] and currents [A]; leaves picture and loops in a folder.
+
+    `currents` may be None, for those of `CURRENTS`, or none where the mount is of rubber.
 
     Raises
     ------
@@ -42,11 +45,14 @@ def run_bench(name_or_file, mount, amplitudes, frequencies, currents, out):
     mounts, index = build_system(vehicle, Operation(0.0, 0.0, False), 1e-4).mounts, names.index(mount)
     if index < mounts.coils:
         low, high = usable_current(vehicle)
+        currents = CURRENTS if currents is None else currents
         for current in currents:
             if not low <= current <= high:
                 raise ValueError(f"--currents has {current:g} A, accepted are {low:g} to {high:g} A")
     else:
-        currents = (0.0,)  # rubber has none
+        if currents is not None:
+            raise ValueError(f"mount {mount} is of rubber and has no current, leave out --currents")
+        currents = (0.0,)
     cases = product(currents, frequencies, amplitudes)
     loops = [shake(mounts, index, current, MILLI * amplitude, frequency) for current, frequency, amplitude in cases]
     with all_or_nothing(out) as folder:
@@ -69,7 +75,7 @@ def run_fit(file, law, carried_mass, out):
     """
     loops = read_loops(file)
     fit = fit_loops(loops, law)
-    items = _items(fit, carried_mass)
+    items = mount_type(fit, carried_mass)
     with all_or_nothing(out) as folder:
         fit_picture(loops, fit.force, f"{law}: {fit.residual:.1%} of the force is left over", folder / "fit.png")
         (folder / "mount_type.yaml").write_text("\n".join(items) + "\n", encoding="utf-8")
@@ -119,28 +125,3 @@ def _fit_table(fit):
 
 def _with_interval(value, unit):
     return "" if value is None else f"{value.value / unit:.4g} ± {value.half / unit:.2g}"
-
-
-def _items(fit, carried_mass):
-    """Give the lines of a `mount_types` entry; polynomials of the highest power that the currents determine."""
-    stiffness = {current: each.value for current, each in fit.stiffness.items()}
-    ratio = {
-        current: each.value / (2.0 * np.sqrt(stiffness[current] * carried_mass))
-        for current, each in fit.damping.items()
-    }
-    yield_force = {current: each.value / KILO for current, each in fit.yield_force.items()}
-    in_file = {current: each / KN_PER_MM for current, each in stiffness.items()}
-    note = f"{fit.law} fit of measured loops, {fit.residual:.1%} of the force left over"
-    fits = [("stiffness_fit", in_file, "kN/mm, I in A"), ("damping_ratio_fit", ratio, "-, I in A")]
-    if yield_force:
-        fits.append(("yield_force_fit", yield_force, "kN, I in A"))
-    lines = ["kind: mr"]
-    for name, values, unit in fits:
-        power = min(HIGHEST_POWER, len(values) - 1)
-        found = np.polyfit(list(values), list(values.values()), power)
-        numbers = [0.0] * (HIGHEST_POWER - power) + [float(f"{each:.5g}") for each in found]
-        lines.append(f'{name}: {{value: {numbers}, unit: "{unit}", source: calibrated, note: "{note}"}}')
-    used = list(fit.damping)
-    lines.append(f"current_range: {{value: [{min(used):g}, {max(used):g}], unit: A, source: calibrated}}")
-    lines.append(f"carried_mass: {{value: {carried_mass:g}, unit: kg, source: assumed}}")
-    return lines

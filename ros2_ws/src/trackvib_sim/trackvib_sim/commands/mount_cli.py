@@ -1,7 +1,9 @@
 """`trackvib mount`: options of the test bench."""
 
 import click
+from click.core import ParameterSource
 
+from ..mount_bench import LAWS
 from .endings import fail
 from .option_types import FiniteRange, Several, vehicle_option
 
@@ -22,12 +24,15 @@ _OUT = click.option(
 @click.option("--mount", default=None, help="Name of the mount.  [default: the vehicle's first]")
 @_numbers("--amplitudes", "0.2,1,3", 1e-3, 50.0, "Amplitudes in mm.")
 @_numbers("--frequencies", "1,8.7,30", 1e-3, 500.0, "Frequencies in Hz.")
-@_numbers("--currents", "0,1,2,4", 0.0, 20.0, "Constant currents in A.")
+@_numbers("--currents", None, 0.0, 20.0, "Constant currents in A.  [default: 0,1,2,4 of a mount with a coil]")
 @_OUT
 @click.pass_context
 def mount(context, **choices):
     """Shake a mount on a test bench; leaves its loops as picture and CSV."""
     if context.invoked_subcommand is not None:
+        given = [name for name in choices if context.get_parameter_source(name) is ParameterSource.COMMANDLINE]
+        if given:
+            raise click.UsageError(f"--{given[0]} is of no use before '{context.invoked_subcommand}'")
         return
     from .mount import run_bench  # imported late: --help need not wait for it
     from .result_folder import CommandError
@@ -42,7 +47,7 @@ def mount(context, **choices):
 @click.argument("file", type=click.Path(exists=True, dir_okay=False))
 @click.option(
     "--law",
-    type=click.Choice(["viscoelastic", "yielding"]),
+    type=click.Choice(LAWS),
     default="yielding",
     show_default=True,
     help="Without or with a yield force.",

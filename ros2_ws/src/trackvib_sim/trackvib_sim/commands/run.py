@@ -217,6 +217,7 @@ def _print_summary(console, summary, folder):
     loop, mounts = summary["loop"], MountEnergy(**summary["mounts_J"])
     unanswered = loop["samples"] if loop["unanswered"] is None else loop["unanswered"]  # None: not one answer came
     for line in (
+        *_drive(summary["drive_N"], summary["drive_W"]),
         f"mounts: {mounts.work:.1f} J of work = {mounts.dissipated:.1f} dissipated {mounts.stored:+.1f} stored "
         f"{mounts.exchanged:+.1f} lost to the field by switching; left over {100.0 * mounts.error:.3f} %",
         f"loop: {loop['samples']} samples; lost {loop['lost_chassis']} chassis, {loop['lost_powertrain']} powertrain; "
@@ -228,3 +229,12 @@ def _print_summary(console, summary, folder):
         f"left in {folder}: bag/, summary.json, summary.txt, run.png, log/",
     ):
         console.print(line, soft_wrap=True)
+
+
+def _drive(force, power):
+    """A line on the running resistance, none where the vehicle stands."""
+    return (
+        []
+        if force is None
+        else [f"drive: {force / 1e3:.1f} kN, {power / 1e3:.0f} kW at the sprockets, mean of the run"]
+    )

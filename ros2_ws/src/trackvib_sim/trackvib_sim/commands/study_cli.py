@@ -138,15 +138,22 @@ def controllers(laws, scenarios, seeds, vehicle, scheduler, out):
     default=None,
     help="Which parameters, bounds and effort.  [default: the plan that comes with the package]",
 )
+@click.option(
+    "--without",
+    type=Several(click.Choice(list(CLASSES))),
+    default=(),
+    metavar="A,B,...",
+    help="Road classes whose rows are left out, to be foretold by `study table1`.",
+)
 @vehicle_option
 @_SCHEDULER
 @_out("calibration", "Folder of the study; a search in it goes on.")
-def calibrate(generations, plan, vehicle, scheduler, out):
+def calibrate(generations, plan, without, vehicle, scheduler, out):
     """Fit uncertain parameters of the vehicle to the rows of the paper's Table 1 that are given."""
     with _ends_in_one_line(out):
         from ..studies.calibration.study import run_calibrate  # imported late, as above
 
-        run_calibrate(plan, vehicle, generations, scheduler, out)
+        run_calibrate(plan, vehicle, without, generations, scheduler, out)
 
 
 @study.command()

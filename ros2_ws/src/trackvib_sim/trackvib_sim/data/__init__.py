@@ -40,6 +40,11 @@ def calibration_plan_file() -> Path:
     return _path("calibration.yaml")
 
 
+def left_out_file() -> Path:
+    """Return the path of the values that calibrations without one road class found, by that class."""
+    return _path("left_out.yaml")
+
+
 def paper_table_file() -> Path:
     """Return the path of the part of [Tao2025]'s Table 1 that the studies compare with."""
     return _path("table1_part.csv")

@@ -15,7 +15,6 @@ from ..numerics.compiled import kernel
 from ..vehicle.mount_law import lead_field
 
 CONFIDENCE = 0.95
-LAWS = ("viscoelastic", "yielding")
 _SLACK = 1e-3  # of the loop's largest force: parameters that do less are taken to do that
 
 

@@ -3,6 +3,8 @@
 from ..numerics.units import NANO
 from ..vehicle.mount_energy import mount_energy_account
 
+DRIVE = ("drive_work_J", "way_m")
+
 
 def health(control, simulation, lockstep, phases, silent, controllers):
     """Return the level of the diagnostics ("ok", "warning", "error") and their values by name.
@@ -22,12 +24,14 @@ def health(control, simulation, lockstep, phases, silent, controllers):
 
 
 def progress(simulation, lockstep):
-    """Return what a run itself tells by name, whoever runs it: time, currents in force, counts, work on the mounts."""
+    """Return what a run itself tells by name, whoever runs it: time, currents in force, counts, work of the drive and
+    on the mounts."""
     coils = zip(simulation.mounting.names, lockstep.currents.tolist(), strict=False)  # of the first mounts
     return {
         "time": simulation.time / NANO,
         **{f"current_{name}": current for name, current in coils},
         **lockstep.counts,
+        **dict(zip(DRIVE, simulation.state.driven.tolist(), strict=True)),
         **{
             f"mount_{part}_J": energy
             for part, energy in mount_energy_account(simulation.state.mount_energy)._asdict().items()

@@ -87,6 +87,12 @@ def mount_description(mounting):
     for mount in mounting.mounts:
         message.mounts.append(Mount(name=mount.name, kind=int(mount.kind)))
         set_vector(message.mounts[-1].place, mount.place)
+    for name, value in mounting.carried._asdict().items():
+        setattr(message.carried, name, value)
+    curve = mounting.curve._asdict()
+    message.curve.current_range = [curve.pop("lowest"), curve.pop("highest")]
+    for name, value in curve.items():
+        setattr(message.curve, name, value)
     return message
 
 

@@ -12,7 +12,6 @@ the coherence x K1(x), x = 2 pi n d, between two lines d apart [Kamash1978]; K1 
 """
 
 from collections.abc import Callable
-
 from dataclasses import dataclass
 from functools import cached_property
 

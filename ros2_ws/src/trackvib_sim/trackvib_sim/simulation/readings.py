@@ -30,10 +30,12 @@ class Readings:
         for row, sensor in enumerate(simulation.sensors):
             if periods % sensor.divisor == 0:
                 parts = (sensor.accelerometer, force[row]), (sensor.gyroscope, rate[row])
-                due[sensor.name] = Reading(*(
-                    values if instrument.is_ideal else self._read(row, sensor.divisor, instrument, values)
-                    for instrument, values in parts
-                ))
+                due[sensor.name] = Reading(
+                    *(
+                        values if instrument.is_ideal else self._read(row, sensor.divisor, instrument, values)
+                        for instrument, values in parts
+                    )
+                )
         return due
 
     def _read(self, row, divisor, instrument, values):

@@ -50,6 +50,7 @@ def run_in(vehicle, system, settings):
             f"the vehicle cannot roll at {speed:g} m/s on a level road: {REASONS[status]}; check the vehicle file"
         )
     start_mount_energy(state.mount_energy)
+    state.driven[:] = 0.0
     return _back_at_start(state)
 
 

@@ -91,7 +91,7 @@ def add_forces(system, state, road, work):
     )
     add_mounts(system.mounts, state.fields, motion, cuts, state.coils.field, displacement, displacement_rate)
     add_engine(system.engine, state.crank_angle[0], motion, cuts)
-    add_driver(system.driver, motion, cuts, state.speed_integral, system.dt)
+    add_driver(system.driver, motion, cuts, state.tree.hinge_rate, state.speed_integral, state.driven, system.dt)
 
 
 @inlined

@@ -47,8 +47,11 @@ def build_driver(vehicle, rows, speed):
 
 
 @kernel
-def add_driver(driver, motion, cuts, integral, dt):
-    """Add the torques and advance the integral (1,) [N] of the speed error; it rests while the force is cut."""
+def add_driver(driver, motion, cuts, hinge_rate, integral, driven, dt):
+    """Add the torques and advance the integral (1,) [N] of the speed error; it rests while the force is cut.
+
+    To `driven` (2,) are added the work of the torques on the sprockets [J] and the hull's way along its x axis [m].
+    """
     forward = body_axes(motion, driver.hull, motion_vector(motion, MotionOffset.VELOCITY, driver.hull))[0]
     error = driver.speed - forward
     wanted = driver.speed_gain * error + integral[0]
@@ -62,8 +65,11 @@ def add_driver(driver, motion, cuts, integral, dt):
     moment = driver.heading_gain * (wanted_heading - heading) - driver.heading_damping * turning
     steering = 0.5 * moment / driver.half_tread
     # a moment to the left pulls on the right side
-    turn_sprocket(driver, motion, cuts, driver.sprocket[0], driver.radius * (0.5 * force - steering))
-    turn_sprocket(driver, motion, cuts, driver.sprocket[1], driver.radius * (0.5 * force + steering))
+    left, right = driver.radius * (0.5 * force - steering), driver.radius * (0.5 * force + steering)
+    turn_sprocket(driver, motion, cuts, driver.sprocket[0], left)
+    turn_sprocket(driver, motion, cuts, driver.sprocket[1], right)
+    driven[0] += dt * (left * hinge_rate[driver.sprocket[0]] + right * hinge_rate[driver.sprocket[1]])
+    driven[1] += dt * forward
 
 
 @kernel

@@ -136,7 +136,7 @@ def _evaluate(system, state, road, work, account):
     account.given[Source.ENGINE] = _power(motion, cuts)
     _add_mounts(system, state, motion, account)
     cuts.cells[:] = 0.0
-    add_driver(system.driver, motion, cuts, state.speed_integral, system.dt)
+    add_driver(system.driver, motion, cuts, state.tree.hinge_rate, state.speed_integral, state.driven, system.dt)
     account.given[Source.DRIVER] = _power(motion, cuts)
     add_tracks(system.tracks, state.tracks, state.tree, road, motion, cuts, work.tracks, system.dt)
     for part in range(TRACK_PARTS):

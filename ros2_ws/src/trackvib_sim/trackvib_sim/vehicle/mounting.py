@@ -3,6 +3,7 @@
 from mr_mount_controller.mounting import Kind, Mount, Mounting
 
 from .body_tree import bodies_on_hinges
+from .carried import carried_by_mounts, curve_of
 from .mounts import mounts_in_order
 from .parameters import POWERTRAIN
 from .sensors import sensors_of
@@ -22,7 +23,7 @@ def mounting_of(vehicle):
         )
         for name, mount in mounts_in_order(vehicle)
     ]
-    return Mounting(tuple(mounts), _turning(bodies[POWERTRAIN]))
+    return Mounting(tuple(mounts), _turning(bodies[POWERTRAIN]), carried_by_mounts(vehicle), curve_of(vehicle))
 
 
 def _turning(powertrain):

@@ -71,9 +71,13 @@ def _sensor(name, section):
 
 def _instrument(section, prefix):
     given = {name: getattr(section, prefix + name) for name in Instrument._fields}
-    return Instrument(**{
-        name: tuple(value) if isinstance(value, list) else value for name, value in given.items() if value is not None
-    })
+    return Instrument(
+        **{
+            name: tuple(value) if isinstance(value, list) else value
+            for name, value in given.items()
+            if value is not None
+        }
+    )
 
 
 def _between_mounts(vehicle):

@@ -67,6 +67,7 @@ class State(NamedTuple):
     fields: FieldState
     crank_angle: np.ndarray  # (1,) rad, see engine.turn_crank
     speed_integral: np.ndarray  # (1,) N
+    driven: np.ndarray  # (2,) work of the driver on the sprockets, J, and the way that it went for, m
     flight: np.ndarray  # (1,) time since a shoe last touched the ground, s
     mount_energy: MountEnergyState
 
@@ -127,6 +128,7 @@ def new_state(system):
         fields=new_field_state(len(system.mounts.body)),
         crank_angle=np.zeros(1),
         speed_integral=np.zeros(1),
+        driven=np.zeros(2),
         flight=np.zeros(1),
         mount_energy=new_mount_energy_state(len(system.mounts.body)),
     )

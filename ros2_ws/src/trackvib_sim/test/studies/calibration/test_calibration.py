@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 from rich.progress import Progress
 from trackvib_sim.data import find_vehicle, paper_table_file
 from trackvib_sim.studies.calibration.history import Candidate, History, HistoryError
-from trackvib_sim.studies.calibration.objective import FAILED, cases, objective, ratios
+from trackvib_sim.studies.calibration.objective import FAILED, cases, level_cases, objective, ratios, resistance_outside
 from trackvib_sim.studies.calibration.plan import Parameter, Plan
 from trackvib_sim.studies.calibration.search import Candidates, attempt
 from trackvib_sim.studies.calibration.sensitivity import sensitivity
@@ -16,6 +16,7 @@ from trackvib_sim.studies.paper.paper_table import read_table
 ROWS = [("A", 5.0), ("E", 20.0)]
 ITEMS = ["tracks.pretension", "sprockets.z[0]"]
 RATIOS = np.linspace(0.5, 2.0, 12).reshape(2, 6)
+RESISTANCE = np.array([[1.5, 1.2], [2.5, 2.0], [0.8, 0.5]])  # at the speeds of the rows and at 25 m/s
 
 
 def levels(chassis, powertrain):
@@ -36,21 +37,25 @@ def test_ratios_are_root_mean_squares_over_the_papers_values():
     assert_allclose(scatter, np.log(4.0 / 3.0) / np.sqrt(24.0))
 
 
+WITHIN = np.array([[1.2, 0.8]] * 2)  # over the low and the high end of its range
+
+
 @pytest.mark.analytic
 def test_objective_by_hand():
-    """All ratios e^a: rms |a|, and a bias of every column, punished twice beyond 1.05."""
+    """All ratios e^a: |a|; in one column alone, all of them 2, log(2) / sqrt(6)."""
     for ratio in (1.5, 1.0 / 1.5):
-        assert_allclose(objective(np.full((3, 6), ratio)), np.log(1.5) + 2.0 * np.log(1.5 / 1.05))
-    assert_allclose(objective(np.full((3, 6), 1.04)), np.log(1.04))  # a small bias is free
+        assert_allclose(objective(np.full((3, 6), ratio), WITHIN), np.log(1.5))
+    one = np.ones((2, 6))
+    one[:, 3] = 2.0
+    assert_allclose(objective(one, WITHIN), np.log(2.0) / np.sqrt(6.0))
 
 
 @pytest.mark.analytic
-def test_objective_sees_scatter_and_bias():
-    """Ratios of 2 and 1/2 in turns have no bias; in one column alone, all of them 2, a sixth of them is biased."""
-    assert_allclose(objective(np.array([[2.0] * 6, [0.5] * 6])), np.log(2.0))
-    one = np.ones((2, 6))
-    one[:, 3] = 2.0
-    assert_allclose(objective(one), np.log(2.0) / np.sqrt(6.0) + 2.0 * np.log(2.0 / 1.05) / 6.0)
+def test_resistance_counts_where_it_is_outside_its_range():
+    """Half the low end, or twice the high end, at one speed of two: log(2) / sqrt(2) more."""
+    for one in ([0.5, 0.3], [3.0, 2.0]):
+        assert_allclose(objective(np.ones((2, 6)), np.array([one, WITHIN[0]])), np.log(2.0) / np.sqrt(2.0))
+    assert_allclose(resistance_outside(WITHIN), [0.0, 0.0])
 
 
 @pytest.mark.analytic
@@ -59,8 +64,10 @@ def test_a_failed_run_costs_a_fixed_value():
     good, bad = levels((1.0, 1.0, 1.0), (1.0, 1.0, 1.0)), Result("failed: overturned", {}, None)
     found, _ = ratios([good, bad, good, good], dict.fromkeys(ROWS, np.ones(6)))
     assert np.isnan(found[0]).all() and (found[1] == 1.0).all()
-    assert_allclose(objective(found), FAILED / np.sqrt(2.0) + 2.0 * (FAILED / 2.0 - np.log(1.05)))
-    assert objective(found) < objective(np.full((2, 6), np.nan))
+    assert_allclose(objective(found, WITHIN), FAILED / np.sqrt(2.0))
+    stuck = np.array([[np.nan, np.nan], WITHIN[0]])
+    assert_allclose(objective(np.ones((2, 6)), stuck), FAILED / np.sqrt(2.0))
+    assert objective(found, WITHIN) < objective(np.full((2, 6), np.nan), WITHIN)
 
 
 @pytest.mark.property
@@ -71,6 +78,7 @@ def test_a_vehicle_that_cannot_be_built_is_a_failed_run(pitch):
     assert "pitch: {value: 0.115," in text
     result = attempt(text.replace("pitch: {value: 0.115,", f"pitch: {{value: {pitch},"), cases(ROWS, 1)[0], 1.0)
     assert result.status.startswith("failed: ") and "tracks.pitch" in result.status and not result.rms
+    assert np.isnan(attempt("nothing", level_cases(ROWS)[0], 1.0)).all()
 
 
 @pytest.mark.property
@@ -85,6 +93,12 @@ def test_cases_cover_each_row_with_own_roads_and_phases():
         assert len({round(min(case.track_phase, 1.0 - case.track_phase), 6) for case in row}) == 3
 
 
+@pytest.mark.property
+def test_every_speed_has_a_run_on_level_ground():
+    """Once, whatever the number of classes, and one at the end of the valid range."""
+    assert [case.speed for case in level_cases(read_table(paper_table_file()))] == [5.0, 10.0, 20.0, 25.0]
+
+
 # --- history -----------------------------------------------------------------------------------------------------
 
 
@@ -96,7 +110,7 @@ def history(tmp_path):
 
 def candidate(index, objective=0.5, ratios=RATIOS):
     """A candidate of generation 2."""
-    return Candidate(2, index, objective, 0.1 + 0.2, [1.0 / 3.0 + index, -0.0009], ratios)
+    return Candidate(2, index, objective, 0.1 + 0.2, [1.0 / 3.0 + index, -0.0009], ratios, RESISTANCE)
 
 
 @pytest.mark.property
@@ -111,6 +125,7 @@ def test_history_reads_back_what_was_written(history):
     assert [each[:5] for each in again.candidates] == [each[:5] for each in first.candidates]
     assert_allclose(again.candidates[0].ratios, RATIOS, rtol=1e-5)
     assert_allclose(again.candidates[1].ratios, failed, rtol=1e-5)
+    assert_allclose([each.resistance for each in again.candidates], [RESISTANCE] * 3, rtol=1e-5)
     assert again.best.index == first.best.index == 1
     assert again.find(2, 2, candidate(2).values).objective == 0.2
     assert again.find(2, 2, [1.0, 2.0]) is None and again.find(3, 0, candidate(0).values) is None
@@ -154,7 +169,7 @@ def test_sensitivity_of_a_power_law(tmp_path):
     for k, side, share in ((0, 0, 0.95), (0, 1, 1.0), (1, 0, 0.55), (1, 1, 0.65)):
         moved = list(values)
         moved[k] = plan.parameters[k].value(share)
-        history.append(Candidate(k, side, 0.0, 0.02, moved, np.exp((k + 1) * slope * share)))
+        history.append(Candidate(k, side, 0.0, 0.02, moved, np.exp((k + 1) * slope * share), RESISTANCE))
     candidates = Candidates(None, "", plan, cases(ROWS, 1), {})
     found = sensitivity(candidates, history, values, Progress(disable=True))
     assert_allclose(found.change, [0.1 * slope, 0.2 * slope], atol=1e-9)

@@ -14,7 +14,6 @@ from trackvib_sim.studies.paper.paper_table import (
     column_bias,
     error_factor,
     given,
-    least_error_factors,
     read_table,
     reduction,
     table_csv,
@@ -129,14 +128,3 @@ def test_only_rows_that_both_have_are_compared():
     assert_array_equal(ours, [rows[0].rms])
     assert_array_equal(paper, [PAPER["A", 5.0]])
     assert given(rows[1:], PAPER).shape == (2, 0, 6)
-
-
-def test_least_error_factors_of_a_model_that_cannot_tell_the_classes_apart():
-    """Analytic: two classes a factor 1.2**2 apart leave 1.2; a jump at the middle speed leaves what no power takes."""
-    speeds, powers, jump = np.array([5.0, 10.0, 20.0]), np.linspace(0.4, 0.9, 6), np.exp([0.0, 0.3, 0.0])
-    smooth = {(c, v): k * v**powers for c, k in (("A", 1.0), ("E", 1.44)) for v in speeds.tolist()}
-    assert_allclose(least_error_factors(smooth), (1.2, 1.2), rtol=1e-12)
-    bent = {(c, v): levels * jump[list(speeds).index(v)] for (c, v), levels in smooth.items()}
-    # equally spaced in log(v), so a straight line leaves 0.3 * (-1, 2, -1) / 3
-    left = np.exp(np.hypot(np.log(1.2), 0.3 * np.sqrt(2.0) / 3.0))
-    assert_allclose(least_error_factors(bent), (1.2, left), rtol=1e-12)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from trackvib_sim.studies.case import GOOD
 from trackvib_sim.studies.paper.paper_table import Row
+from trackvib_sim.studies.paper.predictions import Prediction
 from trackvib_sim.studies.paper.table1_picture import table_picture
 from trackvib_sim.studies.paper.table1_report import report
 
@@ -11,6 +12,7 @@ pytestmark = pytest.mark.property
 
 PAPER = {("A", 5.0): np.array([2.0, 4.0, 1.0, 1.0, 1.0, 1.0])}
 NOTHING = np.full(6, np.nan)
+PREDICTIONS = [Prediction("trackvib", 2.0, np.nan), Prediction("power of the speed, 12 numbers", 1.1, 1.2)]
 ROWS = [
     Row("A", 5.0, 2.0 * PAPER["A", 5.0], np.full(6, 0.25), np.array([4.0, 6.0, 1.0]), GOOD),
     Row("B", 5.0, np.ones(6), np.zeros(6), np.ones(3), "1 of 2 outside the valid range: it fell"),
@@ -21,7 +23,7 @@ ROWS = [
 @pytest.fixture
 def lines():
     """The report's lines."""
-    return report(ROWS, PAPER, 2, "my.yaml", "text of the vehicle").splitlines()
+    return report(ROWS, PAPER, 2, PREDICTIONS, "my.yaml", "text of the vehicle").splitlines()
 
 
 def test_report_says_what_was_run(lines):
@@ -38,6 +40,7 @@ def test_report_sets_rows_beside_the_papers(lines):
     assert f"| B | 5 | {'1.00 ± 0.00 | ' * 6} | {ROWS[1].status} |" in lines
     assert f"| H | 20 | {'- | ' * 6} | {ROWS[2].status} |" in lines
     assert "Outside the valid range, or partly so: class B at 5 m/s, H at 20 m/s." in lines
+    assert "| trackvib | 2.000 | - |" in lines and "| power of the speed, 12 numbers | 1.100 | 1.200 |" in lines
     assert any("over the 1 rows that both have: **2.000**" in line for line in lines)
     assert f"| bias, geometric mean of ours / paper | {' | '.join(['2.000'] * 6)} |" in lines
 

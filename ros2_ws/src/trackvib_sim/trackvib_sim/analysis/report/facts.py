@@ -17,6 +17,9 @@ def facts(report_data):
         "control law": _parameters_with(report_data, "law").get("law", UNKNOWN),
         "speed": _speed(report_data),
         "engine": "" if isnan(found.engine_speed) else f"{found.engine_speed:.5g} r/min",
+        "drive": ""
+        if isnan(found.drive_force)
+        else f"{found.drive_force / 1e3:.3g} kN, {found.drive_power / 1e3:.3g} kW",
         "length": f"{found.duration:.6g} s; {found.measured:.6g} s count, after {found.settle:.3g} s of settling",
         "sensors": f"{found.rate:.6g} Hz; RMS values from {found.band[0]:g} to {found.band[1]:g} Hz",
         "bag": found.bag,

@@ -7,6 +7,7 @@ import numpy as np
 
 from ...new_files import new_file
 from ..paper.paper_table import COLUMNS
+from .objective import level_speeds
 
 _KEYS = ("generation", "index", "objective", "scatter")
 
@@ -60,8 +61,7 @@ class History:
             It cannot be read or written.
         """
         names = [f"{road_class}_{speed:g}_{column}" for road_class, speed in rows for column in COLUMNS]
-        speeds = sorted({speed for _, speed in rows})
-        names += [f"resistance_{speed:g}_over_{end}" for speed in speeds for end in ("low", "high")]
+        names += [f"resistance_{speed:g}_over_{end}" for speed in level_speeds(rows) for end in ("low", "high")]
         head = f"# vehicle, plan, paper's rows and program: {key}\n{','.join((*_KEYS, *items, *names))}\n"
         self._path, self._values, self._ratios = path, len(items), len(rows) * len(COLUMNS)
         if not path.exists():

@@ -4,7 +4,7 @@ import numpy as np
 
 from ..case import BAND
 from ..paper.paper_table import COLUMNS, column_bias, error_factor
-from .objective import BIAS_WEIGHT, FREE_BIAS, RESISTANCE_WEIGHT
+from .objective import level_speeds
 from .sensitivity import PER, REACH
 
 ALIKE = 1.05  # neighbours have an objective up to this multiple of the best
@@ -47,9 +47,8 @@ def _head(plan, history, rows, best, first):
 {len(plan.parameters)} parameters of the vehicle, fitted to {len(rows)} rows of Table 1 of [Tao2025]
 (class {named} m/s).
 RMS over {BAND[0]:g}-{BAND[1]:g} Hz during {plan.measuring:g} s, {plan.seeds} runs a row.
-Objective: rms(log(ours / paper)) over all numbers, plus {BIAS_WEIGHT:g} times what the mean of log(ours / paper)
-of a column exceeds log({FREE_BIAS:g}), up or down, on average over the columns, plus {RESISTANCE_WEIGHT:g} times
-the rms over the speeds of how far the running resistance lies outside the published formulas, as a logarithm.
+Objective: rms(log(ours / paper)) over all numbers of the table, plus the rms over the speeds of how far the running
+resistance lies outside the published formulas, as a logarithm.
 Search: CMA-ES, {generations} generations of {plan.population}, seed {plan.seed}.
 
 | | start | calibrated |
@@ -84,7 +83,7 @@ def _resistance(rows, history, best, first):
     good = [each for each in history.candidates if np.isfinite(each.ratios).all()]
     table = min(good, key=lambda each: error_factor(each.ratios, 1.0), default=best)
     lines = ["## Running resistance", "", "On level ground, over the lowest and the highest published formula.", ""]
-    speeds = sorted({speed for _, speed in rows})
+    speeds = level_speeds(rows)
     lines += [_line("", *(f"{speed:g} m/s" for speed in speeds), "error factor"), "|" + "---|" * (len(speeds) + 2)]
     for name, each in (("start", first), ("calibrated", best), ("best by the table alone", table)):
         cells = (f"{_plain(low)}, {_plain(high)}" for low, high in each.resistance)

@@ -58,9 +58,7 @@ class Candidates(NamedTuple):
                 level = [case for case in range(count) if isinstance(self.cases[case], ResistanceCase)]
                 found, scatter = ratios([results[k][case] for case in range(count) if case not in level], self.paper)
                 resistance = np.array([results[k][case] for case in level])
-                history.append(
-                    Candidate(*place, objective(found, resistance), scatter, values, found, resistance)
-                )
+                history.append(Candidate(*place, objective(found, resistance), scatter, values, found, resistance))
             advance(1)
         return [history.find(*place, values) for place, values in wanted.items()]
 

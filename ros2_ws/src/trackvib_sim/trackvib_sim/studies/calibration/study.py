@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import yaml
 from dask.system import CPU_COUNT
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
@@ -15,7 +16,7 @@ from ..workers import workers
 from .history import History
 from .objective import cases, level_cases
 from .pictures import convergence_picture, frontier_picture, sensitivity_picture
-from .plan import read_plan
+from .plan import PlanError, read_plan
 from .report import report
 from .search import Candidates, search
 from .sensitivity import sensitivity, sensitivity_csv
@@ -24,13 +25,15 @@ from .vehicle_text import calibrated_vehicle_text
 _HASH = 16  # digits
 
 
-def run_calibrate(plan_file, vehicle_file, generations, scheduler, out):
+def run_calibrate(plan_file, vehicle_file, without, generations, scheduler, out):
     """Do the study, or go on with it; everything it leaves lies in the folder `out`.
 
     Parameters
     ----------
     plan_file, vehicle_file : path-like or None
         None for those that come with the package.
+    without : sequence of str
+        Road classes whose rows are left out.
     generations : int or None
         How many the search has in all, with those done earlier; None for the plan's number.
     scheduler : str or None
@@ -45,6 +48,9 @@ def run_calibrate(plan_file, vehicle_file, generations, scheduler, out):
     vehicle, text = read_vehicle(find_vehicle(vehicle_file))
     given = read_table(paper_table_file())
     plan = read_plan(plan_file or calibration_plan_file(), text, given)
+    plan = plan.model_copy(update={"rows": [row for row in plan.rows if row[0] not in without]})
+    if not plan.rows:
+        raise PlanError(f"without {', '.join(without)} no row is left of {len(given)}")
     paper = {row: given[row] for row in plan.rows}
     folder, console = Path(out), Terminal()
     folder.mkdir(parents=True, exist_ok=True)
@@ -60,6 +66,8 @@ def run_calibrate(plan_file, vehicle_file, generations, scheduler, out):
         search(candidates, history, start, generations or plan.generations, progress)
         best = history.best
         _write_vehicle(folder / "vehicle.yaml", text, plan, best.values)
+        with new_file(folder / "values.yaml") as file:
+            file.write(yaml.safe_dump(dict(zip(plan.items, best.values, strict=True)), sort_keys=False).encode())
         sensitive = sensitivity(candidates, around, best.values, progress)
     with new_file(folder / "sensitivity.csv") as file:
         file.write(sensitivity_csv(plan, list(paper), sensitive).encode())
@@ -75,7 +83,7 @@ def run_calibrate(plan_file, vehicle_file, generations, scheduler, out):
         f"objective {best.objective:.3f}, at the start {history.candidates[0].objective:.3f}; "
         f"error factor over {len(paper)} rows {error_factor(best.ratios, 1.0):.3f}"
     )
-    left = "vehicle.yaml, calibration.md, convergence.png, frontier.png, sensitivity.png, sensitivity.csv, history.csv"
+    left = "vehicle.yaml, values.yaml, calibration.md, convergence.png, frontier.png, sensitivity.png, sensitivity.csv, history.csv"
     console.print(f"left in {folder}: {left}", soft_wrap=True)
 
 

@@ -90,28 +90,6 @@ def column_bias(ours, paper):
     return np.exp(np.mean(np.log(ours / paper), axis=0))
 
 
-def least_error_factors(paper):
-    """Return the error factors of the best levels that a model without an eye for the road class can have.
-
-    Parameters
-    ----------
-    paper : dict
-        (class, speed) -> values (6,).
-
-    Returns
-    -------
-    by_speed : float
-        One level for each column and speed.
-    by_power : float
-        Levels that grow with a power of the speed, one for each column.
-    """
-    logs = np.log(np.array(list(paper.values())))
-    speed = np.array([speed for _, speed in paper])
-    bases = (speed[:, None] == np.unique(speed), np.stack((np.ones_like(speed), np.log(speed)), axis=1))
-    fits = [basis @ np.linalg.lstsq(basis, logs, rcond=None)[0] for basis in bases]
-    return tuple(float(error_factor(np.exp(fit), np.exp(logs))) for fit in fits)
-
-
 def reduction(values, against=None):
     """Return by how many percent the powertrain's three values of (6,), or `against` (3,), lie below the chassis's."""
     return 100.0 * (1.0 - (values[3:] if against is None else against) / values[:3])

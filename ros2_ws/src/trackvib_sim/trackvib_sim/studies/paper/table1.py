@@ -14,6 +14,7 @@ from ..case import BAND, GOOD, Case
 from ..case_store import CaseStore
 from ..run_missing import run_shown
 from .paper_table import error_factor, given, read_table, table_csv, table_rows
+from .predictions import by_speed_alone, foretold, ours
 from .table1_picture import table_picture
 from .table1_report import report
 
@@ -45,15 +46,17 @@ def run_table1(classes, speeds, seeds, vehicle_file, scheduler, out):
     paper = read_table(paper_table_file())
     folder, console = Path(out), Terminal()
     store = CaseStore(folder / "cases", text)
-    found = run_shown(vehicle, cases(classes, speeds, seeds), store, folder, console, scheduler)
-    rows = table_rows(found)
+    wanted = cases(classes, speeds, seeds)
+    rows = table_rows(run_shown(vehicle, wanted, store, folder, console, scheduler))
+    left_out = foretold(text, paper, wanted, folder / "cases", scheduler, console)
+    predictions = [ours(rows, left_out, paper), *by_speed_alone(paper)]
     with new_file(folder / "table1.csv") as file:
         file.write(table_csv(rows).encode())
     with new_file(folder / "table1.md") as file:
-        file.write(report(rows, paper, seeds, path.name, text).encode())
+        file.write(report(rows, paper, seeds, predictions, path.name, text).encode())
     with new_file(folder / "table1.png") as file:
         table_picture(rows, paper, seeds, file)
-    _print(console, rows, paper, folder)
+    _print(console, rows, paper, predictions, folder)
 
 
 def cases(classes, speeds, seeds):
@@ -71,7 +74,7 @@ def track_phase(seed):
     return seed * _GOLDEN % 1.0
 
 
-def _print(console, rows, paper, folder):
+def _print(console, rows, paper, predictions, folder):
     title = f"RMS acceleration, m/s², {BAND[0]:g}-{BAND[1]:g} Hz, paper axes (Y is vertical)"
     table = Table("class", title=title, title_justify="left")
     for name in ("m/s", "chassis X, Y, Z", "powertrain X, Y, Z", "error factor"):
@@ -84,10 +87,18 @@ def _print(console, rows, paper, folder):
     for row in rows:
         if row.status != GOOD:
             console.print(f"class {row.road_class}, {row.speed:g} m/s: {row.status}", soft_wrap=True)
-    pairs = given(rows, paper)
-    if pairs.size:
-        console.print(f"error factor over all rows that the paper gives: {error_factor(*pairs):.3f}")
+    if given(rows, paper).size:
+        console.print(_predictions(predictions))
     console.print(f"left in {folder}: table1.csv, table1.md, table1.png, cases/", soft_wrap=True)
+
+
+def _predictions(predictions):
+    table = Table("error factor over the paper's rows", title="Prediction", title_justify="left")
+    for name in ("fitted to them", "classes left out"):
+        table.add_column(name, justify="right")
+    for each in predictions:
+        table.add_row(each.name, *(f"{value:.3f}" if np.isfinite(value) else "-" for value in each[1:]))
+    return table
 
 
 def _number(value):

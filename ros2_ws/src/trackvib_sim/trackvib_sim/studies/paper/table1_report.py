@@ -5,13 +5,13 @@ import numpy as np
 from ...bags.versions import versions
 from ..case import BAND, ENGINE_SPEED, GOOD, MEASURING
 from ..case_store import program, text_hash
-from .paper_table import SENSORS, column_bias, error_factor, given, least_error_factors, reduction
+from .paper_table import SENSORS, column_bias, error_factor, given, reduction
 
 _NAMES = tuple(f"{sensor} {axis}" for sensor in SENSORS for axis in "XYZ")
 _HASH = 12  # digits
 
 
-def report(rows, paper, seeds, vehicle_name, vehicle_text):
+def report(rows, paper, seeds, predictions, vehicle_name, vehicle_text):
     """Return the report as Markdown text.
 
     Parameters
@@ -21,12 +21,13 @@ def report(rows, paper, seeds, vehicle_name, vehicle_text):
         (class, speed) -> values (6,), as `paper_table.read_table` gives it.
     seeds : int
         Number of runs a row.
+    predictions : sequence of predictions.Prediction
     vehicle_name, vehicle_text : str
         Of the vehicle file.
     """
     parts = [_head(seeds, vehicle_name, vehicle_text), _levels(rows, paper)]
     if given(rows, paper).size:
-        parts.append(_comparison(*given(rows, paper), paper))
+        parts.append(_comparison(*given(rows, paper), predictions))
     return "\n".join([*parts, _reductions(rows, paper)])
 
 
@@ -66,8 +67,7 @@ def _level(ours, scatter, theirs):
     return cell if theirs is None else f"{cell} ({theirs:.2f})"
 
 
-def _comparison(ours, paper, table):
-    by_speed, by_power = least_error_factors(table)
+def _comparison(ours, paper, predictions):
     lines = [
         "## Comparison",
         "",
@@ -78,11 +78,13 @@ def _comparison(ours, paper, table):
         _line("error factor", *(f"{error_factor(*each):.3f}" for each in zip(ours.T, paper.T, strict=True))),
         _line("bias, geometric mean of ours / paper", *(f"{bias:.3f}" for bias in column_bias(ours, paper))),
         "",
-        "For scale: up to class E ours hardly depends on the class, while the paper's rows scatter among the",
-        f"classes. Over all its {len(table)} rows the factor would be {by_speed:.3f} with the best levels for each",
-        f"speed that are the same for all classes, and {by_power:.3f} with the best that grow as a power of the speed,",
-        "one power a column.",
-    ]
+        "For scale, models that know the speed alone, fitted to the rows that the paper gives. In the second column",
+        "each road class is foretold by what was fitted, or calibrated, without it.",
+        "",
+        *_header("", "fitted to them", "classes left out"),
+        *(_line(each.name, *(f"{value:.3f}" if np.isfinite(value) else "-" for value in each[1:]))
+          for each in predictions),
+    ]  # fmt: skip
     return "\n".join(lines) + "\n"
 
 
