@@ -78,7 +78,8 @@ def mount():
     rows = [("current, A", "k, kN/mm", "c, kN s/m")]
     for current in (LOWEST_CURRENT, 0.8, 1.0, 2.0, 3.0, firmest, HIGHEST_CURRENT):
         most = " (most)" if current == firmest else ""
-        rows.append((f"{current:g}", f"{1e-6 * PUBLISHED.stiffness(current):.2f}", f"{1e-3 * PUBLISHED.damping(current):.1f}{most}"))
+        stiffness, damping = 1e-6 * PUBLISHED.stiffness(current), 1e-3 * PUBLISHED.damping(current)
+        rows.append((f"{current:g}", f"{stiffness:.2f}", f"{damping:.1f}{most}"))
     return rows
 
 

@@ -178,6 +178,8 @@ def test_summary_and_picture(first):
     assert 2.5 < summary["rms_mps2"]["powertrain"]["z"] < 10.0  # [Tao2025] has 5.5 on such a road at this speed
     assert f"{summary['rms_mps2']['powertrain']['z']:.3f}" in printed
     assert float(summary["loop"]["real_time_factor"]) > 0.0
+    assert 5e3 < summary["drive_N"] < 5e4
+    assert f"drive: {summary['drive_N'] / 1e3:.1f} kN, {summary['drive_W'] / 1e3:.0f} kW" in printed
     mounts = MountEnergy(**summary["mounts_J"])
     assert mounts.dissipated > 0.0 and mounts.exchanged != 0.0 and mounts.error < 1e-3
     assert f"{mounts.work:.1f} J of work" in printed
@@ -197,6 +199,7 @@ def test_analysis_of_the_bag_agrees_with_the_summary(first, tmp_path):
     rms = {sensor: {axis: n["rms"] for axis, n in axes.items()} for sensor, axes in found["sensors"].items()}
     assert rms == summary["rms_mps2"]
     assert (found["loop"], found["mount_energy"]) == (summary["loop"], summary["mounts_J"])
+    assert (found["drive_force"], found["drive_power"]) == (summary["drive_N"], summary["drive_W"])
     assert found["settle"] == summary["settled_after_s"]
     lines = {line["name"]: line["frequency"] for line in found["lines"]}
     assert lines["link passing 1"] == pytest.approx(87.0, rel=0.01) and lines["engine order 2"] == 55.0

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from trackvib_sim.analysis.loop_health import drive as drive_numbers
 from trackvib_sim.analysis.loop_health import mount_energy
 from trackvib_sim.analysis.settling import settling_time
 from trackvib_sim.analysis.stamps import losses
@@ -61,3 +62,15 @@ def test_work_on_the_mounts_is_what_the_simulator_told():
     found = mount_energy(drive(stamps, stamps, stamps, 0.1)._replace(diagnostics=told))
     assert found.residual == pytest.approx(1.4) and found.error == pytest.approx(0.01)
     assert found._replace(work=0.0, dissipated=0.0, stored=0.0, exchanged=0.0).error == 0.0
+
+
+@pytest.mark.property
+def test_drive_is_what_the_simulator_told():
+    """Work over way and over time; no force of a vehicle that stood, nothing of a simulator that told nothing."""
+    stamps = list(range(1, 101))
+    recording = drive(stamps, stamps, stamps, 0.1)
+    told = {"drive_work_J": "2000.0", "way_m": "100.0", "time": "8.0"}
+    assert drive_numbers(recording._replace(diagnostics=told)) == (20.0, 250.0)
+    stood = drive_numbers(recording._replace(diagnostics=told | {"way_m": "0.5"}))
+    assert np.isnan(stood[0]) and stood[1] == 250.0
+    assert np.isnan(drive_numbers(recording._replace(diagnostics={}))).all()

@@ -233,8 +233,5 @@ def _print_summary(console, summary, folder):
 
 def _drive(force, power):
     """A line on the running resistance, none where the vehicle stands."""
-    return (
-        []
-        if force is None
-        else [f"drive: {force / 1e3:.1f} kN, {power / 1e3:.0f} kW at the sprockets, mean of the run"]
-    )
+    words = "at the sprockets, mean of the run"
+    return [] if force is None else [f"drive: {force / 1e3:.1f} kN, {power / 1e3:.0f} kW {words}"]

@@ -14,6 +14,8 @@ from .sensing import points_of
 from .step import REASONS, Status, advance, new_sample
 
 DURATION = 3.0  # s; the slowest motion, of the driver's speed control, has a time constant of 0.9 s
+CALMED = 2.0  # s of it, in which a standing vehicle's tracks are brought to rest
+CALMING_DAMPING = 20.0  # N m s/rad of a pin, a bushing of high loss
 _SPACING = 1.0  # m
 _AROUND = 10.0  # m
 
@@ -41,10 +43,13 @@ def run_in(vehicle, system, settings):
     samples = int((2.0 * _AROUND + abs(way)) / _SPACING) + 2
     road = Road(int((min(way, 0.0) - _AROUND) / _SPACING), _SPACING, np.zeros((2, samples)))
     points = points_of((), (), {}, settings.rates)
-    steps = round(DURATION / system.dt)
     demanded = np.full(system.mounts.coils, settings.passive_current)
     sample = new_sample(points, 0, system.mounts)
-    status = advance(system, state, road, demanded, steps, work, points, sample)
+    parts = ((calmed(system), CALMED), (system, DURATION - CALMED)) if speed == 0.0 else ((system, DURATION),)
+    status = Status.GOOD
+    for now, duration in parts:
+        if status == Status.GOOD:
+            status = advance(now, state, road, demanded, round(duration / system.dt), work, points, sample)
     if status != Status.GOOD:
         raise CannotRoll(
             f"the vehicle cannot roll at {speed:g} m/s on a level road: {REASONS[status]}; check the vehicle file"
@@ -52,6 +57,16 @@ def run_in(vehicle, system, settings):
     start_mount_energy(state.mount_energy)
     state.driven[:] = 0.0
     return _back_at_start(state)
+
+
+def calmed(system):
+    """Return a system whose pins are so stiff to turn that the upper runs, which nothing else damps, come to rest.
+
+    For a standing vehicle only: one that moves shakes its tracks itself.
+    """
+    tracks = system.tracks
+    chain = tracks.chain._replace(pin_damping=max(tracks.chain.pin_damping, CALMING_DAMPING))
+    return system._replace(tracks=tracks._replace(chain=chain))
 
 
 def _back_at_start(state):

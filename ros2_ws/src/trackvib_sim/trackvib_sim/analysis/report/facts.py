@@ -17,9 +17,7 @@ def facts(report_data):
         "control law": _parameters_with(report_data, "law").get("law", UNKNOWN),
         "speed": _speed(report_data),
         "engine": "" if isnan(found.engine_speed) else f"{found.engine_speed:.5g} r/min",
-        "drive": ""
-        if isnan(found.drive_force)
-        else f"{found.drive_force / 1e3:.3g} kN, {found.drive_power / 1e3:.3g} kW",
+        "drive": "" if isnan(found.drive_force) else _drive(found),
         "length": f"{found.duration:.6g} s; {found.measured:.6g} s count, after {found.settle:.3g} s of settling",
         "sensors": f"{found.rate:.6g} Hz; RMS values from {found.band[0]:g} to {found.band[1]:g} Hz",
         "bag": found.bag,
@@ -39,6 +37,10 @@ def headline(report_data):
     words += [f"law {law['law']}"] if law else []
     words += [f"seed {road['seed']}"] if "seed" in road else []
     return ", ".join([*(words or names([found.bag])), f"{found.duration:.6g} s"])
+
+
+def _drive(found):
+    return f"{found.drive_force / 1e3:.3g} kN, {found.drive_power / 1e3:.3g} kW at the sprockets, mean from the start"
 
 
 def _parameters_with(report_data, parameter):

@@ -31,8 +31,8 @@ class Candidate(NamedTuple):
 class History:
     """A CSV file of candidates, each there as soon as it has been evaluated.
 
-    The first line names by a hash what the numbers depend on. All numbers but ratios and resistances are exact: a search that is
-    done again with them takes the same way.
+    The first line names by a hash what the numbers depend on. All numbers but ratios and resistances are exact: a
+    search that is done again with them takes the same way.
 
     Attributes
     ----------

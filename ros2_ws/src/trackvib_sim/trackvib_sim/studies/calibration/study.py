@@ -83,8 +83,11 @@ def run_calibrate(plan_file, vehicle_file, without, generations, scheduler, out)
         f"objective {best.objective:.3f}, at the start {history.candidates[0].objective:.3f}; "
         f"error factor over {len(paper)} rows {error_factor(best.ratios, 1.0):.3f}"
     )
-    left = "vehicle.yaml, values.yaml, calibration.md, convergence.png, frontier.png, sensitivity.png, sensitivity.csv, history.csv"
-    console.print(f"left in {folder}: {left}", soft_wrap=True)
+    pictures = "convergence.png, frontier.png, sensitivity.png"
+    console.print(
+        f"left in {folder}: vehicle.yaml, values.yaml, calibration.md, {pictures}, sensitivity.csv, history.csv",
+        soft_wrap=True,
+    )
 
 
 def _key(vehicle_text, plan, paper):
