@@ -40,10 +40,11 @@ def made_up():
 @pytest.mark.property
 @pytest.mark.parametrize("name", SCENARIOS)
 def test_every_scenario_gives_every_quantity(vehicle, name):
-    """Finite and positive; with passive mounts the current is the one held."""
+    """Finite and positive; with passive mounts the current is the one held, and nothing is lost by switching."""
     result = control(vehicle, ControlCase(name, 1, 0.3, PASSIVE))
     assert result.status == GOOD
     assert list(result.levels) == list(QUANTITIES)
+    assert result.levels.pop("switching") == 0.0
     assert all(0.0 < value < 1e3 for value in result.levels.values())
     assert result.levels["current"] == pytest.approx(1.0, abs=1e-9)
     assert result.levels["powertrain_high"] < result.levels["powertrain"]

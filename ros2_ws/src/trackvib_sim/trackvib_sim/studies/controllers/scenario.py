@@ -18,6 +18,7 @@ from ...simulation.run_in import CannotRoll
 from ...simulation.settings import RunSettings
 from ...simulation.simulation import Probe, RunFailed, Simulation
 from ...vehicle.engine import RunUp
+from ...vehicle.mount_energy import mount_energy_account
 from ...vehicle.sensors import sensors_of
 from ...vehicle.system import Operation
 from ..case import BAND, GOOD, RATES, rates_for, rough_road
@@ -96,6 +97,7 @@ QUANTITIES = {  # name: what it is, unit
     "force": ("RMS of the vertical force through both mounts", "kN"),
     "travel": ("vertical travel of the mounts, peak to peak", "mm"),
     "current": ("mean current of a coil", "A"),
+    "switching": ("power lost to the field by switching, both mounts, mean of the whole run", "W"),
 }
 
 
@@ -112,7 +114,8 @@ def control(vehicle, case):
         record = run_closed_loop(simulation, scenario.road(vehicle, case.seed), law, settled + measured)
     except (CannotRoll, RunFailed) as error:
         return ControlResult(f"failed: {error}", {})
-    return ControlResult(GOOD, _levels(record, settled, simulation.settings.rates))
+    lost = mount_energy_account(simulation.state.mount_energy).exchanged / (simulation.time / NANO)
+    return ControlResult(GOOD, _levels(record, settled, simulation.settings.rates) | {"switching": lost})
 
 
 def probes(vehicle):
