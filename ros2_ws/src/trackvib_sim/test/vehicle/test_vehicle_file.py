@@ -175,3 +175,18 @@ def test_unreadable_files_are_named(tmp_path):
         with pytest.raises(VehicleFileError, match="cannot be read") as refused:
             read_vehicle(path)
         assert repr(str(path)) in str(refused.value)
+
+
+@pytest.mark.analytic
+def test_a_file_of_format_2_is_read_as_it_was_meant(content, vehicle):
+    """Damping, friction and stops along the wheel's arc: vertical ones are larger by the arm's angle, 25 degrees."""
+    old = parse_vehicle(content.replace("format: 3", "format: 2"), "old.yaml")
+    level = np.cos(np.radians(25.0))
+    for section, powers in (
+        ("swing_arms", {"friction": 2, "bump_stiffness": 2, "bump_damping": 2, "wheel_rate": 0}),
+        ("shock_absorbers", {"damping": 2, "blow_off_force": 1, "blow_off_damping": 2}),
+    ):
+        for item, power in powers.items():
+            was, now = (getattr(getattr(each, section), item) for each in (old, vehicle))
+            assert was == pytest.approx([value / level**power for value in now], rel=1e-12)
+    assert old.tracks == vehicle.tracks and old.format == vehicle.format

@@ -32,12 +32,12 @@ def upgraded(content):
 
 
 def _made_vertical(new):
-    level = cos(radians(new["swing_arms"]["static_angle"]["value"]))
+    level = cos(radians(float(new["swing_arms"]["static_angle"]["value"])))
     for section, items in _ALONG_THE_ARC.items():
         for item, power in items.items():
-            quantity = new[section][item]
-            values, factor = quantity["value"], level**-power
-            scaled = [factor * value for value in values] if isinstance(values, list) else factor * values
+            quantity, factor = new[section][item], level**-power
+            values = quantity["value"]  # numbers with an exponent may still be text
+            scaled = [factor * float(each) for each in values] if isinstance(values, list) else factor * float(values)
             new[section][item] = quantity | {"value": scaled}
     return new | {"format": FORMAT}
 
