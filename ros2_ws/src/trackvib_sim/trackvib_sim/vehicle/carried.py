@@ -38,17 +38,17 @@ def carried_by_mounts(vehicle):
         for mount in rubber
     )
     return Carried(
-        hull_mass=float(sprung),
+        hull_mass=_rounded(sprung),
         suspension_stiffness=_vertical(vehicle, vehicle.swing_arms.wheel_rate),
         suspension_damping=_vertical(vehicle, vehicle.swing_arms.friction)
         + _vertical(vehicle, vehicle.shock_absorbers.damping),
-        powertrain_mass=float(powertrain.mass),
-        pivot_inertia=float(inertia),
-        centre=(float(centre[0]), float(centre[2])),
-        sensor=(float(sensor.place[0] - pivot[0]), float(sensor.place[2] - pivot[2])),
-        coupling=float(centre[0] / lever) if turns else 1.0,
-        mount_mass=float(inertia / lever**2) if turns else float(powertrain.mass),
-        other_stiffness=float(other + (powertrain.stiffness / lever**2 if turns else 0.0)),
+        powertrain_mass=_rounded(powertrain.mass),
+        pivot_inertia=_rounded(inertia),
+        centre=(_rounded(centre[0]), _rounded(centre[2])),
+        sensor=(_rounded(sensor.place[0] - pivot[0]), _rounded(sensor.place[2] - pivot[2])),
+        coupling=_rounded(centre[0] / lever) if turns else 1.0,
+        mount_mass=_rounded(inertia / lever**2 if turns else powertrain.mass),
+        other_stiffness=_rounded(other + (powertrain.stiffness / lever**2 if turns else 0.0)),
     )
 
 
@@ -72,4 +72,9 @@ def curve_of(vehicle):
 
 def _vertical(vehicle, at_wheels):
     """Return the sum over all wheels of what there is at each station."""
-    return float(len(SIDES) * np.sum(at_stations(at_wheels, vehicle.swing_arms.stations)))
+    return _rounded(len(SIDES) * np.sum(at_stations(at_wheels, vehicle.swing_arms.stations)))
+
+
+def _rounded(value):
+    """Return a number to nine digits: what is told must not differ in its last bits from one machine to the next."""
+    return float(f"{value:.9g}")
