@@ -73,7 +73,7 @@ def test_lists_vehicles(vehicle, tmp_path):
     code, output = vehicle("--list")
     assert code == 0, output
     assert all(re.search(rf"\b{name}\b", output) for name in vehicle_names())
-    assert re.search(r"tao2025 .* 42\.1 t .* 6 .* rear .* 2 mr", output)
+    assert re.search(r"tao2025 .* 42\.8 t .* 6 .* rear .* 2 mr", output)
     assert re.search(r"m113 .* 5 .* front", output)
     assert not list(tmp_path.rglob("*.png"))
 

@@ -64,10 +64,13 @@ def changed(vehicle):
 
 
 @pytest.fixture(scope="session")
-def easy_teeth(changed):
-    """The vehicle with teeth that pins enter freely: for tests of the code in which harsh impacts amplify or hide."""
+def easy_teeth(changed, vehicle):
+    """The vehicle with teeth that pins enter freely and tracks that calm down: for tests of the code in which harsh
+    impacts amplify or hide."""
     teeth = dict(teeth=16.0, pitch_excess=0.0, flank_angle=19.7, backlash=0.0011, height=0.045, corner_radius=0.02)
-    return changed("sprocket_teeth", **teeth, stiffness=1.5e8, damping=1.2e4)
+    easy = changed("sprocket_teeth", **teeth, stiffness=1.5e8, damping=1.2e4)
+    tracks = vehicle.tracks.model_copy(update={"link_damping": 1.4e4, "pin_damping": 2.0})
+    return easy.model_copy(update={"tracks": tracks})
 
 
 @pytest.fixture(scope="session")

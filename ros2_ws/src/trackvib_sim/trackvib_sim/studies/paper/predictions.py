@@ -94,6 +94,8 @@ def foretold(text, paper, cases, folder, scheduler, console):
     columns = (Description(), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     for road_class, other in left_out_vehicles(text, paper).items():
         mine = [case for case in cases if case.road_class == road_class and (road_class, case.speed) in paper]
+        if not mine:
+            continue
         store = CaseStore(folder / f"without_{road_class}", other)
         vehicle = parse_vehicle(other, f"vehicle calibrated without class {road_class}")
         with Progress(*columns, console=console) as progress:

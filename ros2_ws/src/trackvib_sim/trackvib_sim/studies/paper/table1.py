@@ -48,7 +48,7 @@ def run_table1(classes, speeds, seeds, vehicle_file, scheduler, out):
     store = CaseStore(folder / "cases", text)
     wanted = cases(classes, speeds, seeds)
     rows = table_rows(run_shown(vehicle, wanted, store, folder, console, scheduler))
-    left_out = foretold(text, paper, wanted, folder / "cases", scheduler, console)
+    left_out = foretold(text, paper, wanted, folder / "left_out", scheduler, console)
     predictions = [ours(rows, left_out, paper), *by_speed_alone(paper)]
     with new_file(folder / "table1.csv") as file:
         file.write(table_csv(rows).encode())
@@ -89,7 +89,7 @@ def _print(console, rows, paper, predictions, folder):
             console.print(f"class {row.road_class}, {row.speed:g} m/s: {row.status}", soft_wrap=True)
     if given(rows, paper).size:
         console.print(_predictions(predictions))
-    console.print(f"left in {folder}: table1.csv, table1.md, table1.png, cases/", soft_wrap=True)
+    console.print(f"left in {folder}: table1.csv, table1.md, table1.png, cases/, left_out/", soft_wrap=True)
 
 
 def _predictions(predictions):
