@@ -8,15 +8,13 @@ from typing import NamedTuple
 
 import numpy as np
 import yaml
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
-from ...console import Description
 from ...data import calibration_plan_file, find_vehicle, left_out_file
 from ...vehicle.vehicle_file import parse_vehicle
 from ..calibration.plan import read_plan
 from ..calibration.vehicle_text import calibrated_vehicle_text
 from ..case_store import CaseStore
-from ..run_missing import run_missing
+from ..run_missing import run_shown
 from .paper_table import error_factor, given, table_rows
 
 
@@ -91,16 +89,14 @@ def foretold(text, paper, cases, folder, scheduler, console):
     console : rich.console.Console
     """
     rows = []
-    columns = (Description(), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     for road_class, other in left_out_vehicles(text, paper).items():
         mine = [case for case in cases if case.road_class == road_class and (road_class, case.speed) in paper]
         if not mine:
             continue
         store = CaseStore(folder / f"without_{road_class}", other)
         vehicle = parse_vehicle(other, f"vehicle calibrated without class {road_class}")
-        with Progress(*columns, console=console) as progress:
-            found = run_missing(vehicle, mine, store, scheduler, progress, f"calibrated without {road_class}")
-        rows += table_rows(found)
+        words = f"calibrated without {road_class}"
+        rows += table_rows(run_shown(vehicle, mine, store, folder, console, scheduler, description=words))
     return rows
 
 
