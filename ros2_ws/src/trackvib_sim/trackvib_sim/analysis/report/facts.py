@@ -29,7 +29,7 @@ def headline(report_data):
     """Return the run in one line, by the bag's name where it tells nothing."""
     found, road, law = (
         report_data.analysis,
-        _parameters_with(report_data, "road_class"),
+        _road_parameters(report_data),
         _parameters_with(report_data, "law"),
     )
     words = [f"class {road['road_class']}"] if road else []
