@@ -13,6 +13,7 @@ from ..road_sources.picture import road_picture
 from ..road_sources.road_file import find_road, road_in_words
 from .result_folder import whole_or_none
 
+SHORTEST_LOOK = 10.0  # m
 MOST = 20_000_000  # samples
 SHORTEST = 0.115  # m, of a link: what is shorter, shoes bridge
 
@@ -29,6 +30,7 @@ def run_road(text, seed, length, begin, tread, csv, crg, out):
     """
     road = find_road(text, tread, seed)
     start = road.begins if begin is None else begin
+    length = min(length, max(road.ends - start, SHORTEST_LOOK))
     first, count = round(start / road.spacing), round(length / road.spacing) + 1
     if count > MOST:
         raise ValueError(f"--length {length:g} m are {count} samples of {road.spacing:g} m, accepted are {MOST}")

@@ -118,6 +118,8 @@ class Iso8608Road:
     coherence: Callable = Isotropic()  # of left and right, function of the spatial frequency
     spacing: float = SPACING  # m, between samples
 
+    ends = np.inf  # m
+
     @property
     def begins(self) -> float:
         """Distance from which the road has all of its roughness [m]."""

@@ -170,6 +170,11 @@ class ObstacleRoad:
         """Distance from which the ground has all of its roughness [m]."""
         return self.ground.begins
 
+    @property
+    def ends(self) -> float:
+        """Distance at which the ground and the last obstacle end [m]."""
+        return max(self.ground.ends, *(obstacle.at + obstacle.end for obstacle in self.obstacles))
+
     def heights(self, first: int, count: int) -> np.ndarray:
         """Return the heights (2, count) [m], left and right, of the samples `first` ... `first + count - 1`."""
         heights = self.ground.heights(first, count).copy()
@@ -193,7 +198,7 @@ class LevelRoad:
     """
 
     spacing: float = FINE  # m, between samples
-    begins = 0.0  # m
+    begins = ends = 0.0  # m
 
     def heights(self, first: int, count: int) -> np.ndarray:
         """Return the heights (2, count) [m], all zero."""

@@ -91,6 +91,11 @@ class ProfileRoad:
         """Distance at which it begins [m]."""
         return self.start
 
+    @property
+    def ends(self) -> float:
+        """Distance at which it ends [m]; infinite where it is repeated."""
+        return np.inf if self.repeat else self.start + self.spacing * (self._samples.shape[1] - 1)
+
     @cached_property
     def even(self) -> bool:
         """Whether the samples are taken as they are."""

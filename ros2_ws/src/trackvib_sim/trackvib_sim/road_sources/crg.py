@@ -108,7 +108,8 @@ def _grid(data, head, name):
     count = len(head.channels)
     if head.kind in _BINARY:
         kind = np.dtype(_BINARY[head.kind])
-        numbers = np.frombuffer(data[: len(data) // kind.itemsize * kind.itemsize], kind).astype(float)
+        with np.errstate(invalid="ignore"):  # of damaged numbers
+            numbers = np.frombuffer(data[: len(data) // kind.itemsize * kind.itemsize], kind).astype(float)
         whole = len(numbers) // count
         rest = numbers[whole * count :]
         if not np.isnan(rest).all():

@@ -18,6 +18,11 @@ class RecordedRoad:
     samples: np.ndarray  # (2, n) m
     begins = 0.0  # m; a run began there
 
+    @property
+    def ends(self) -> float:
+        """Distance at which the recording ends [m]."""
+        return self.spacing * (self.first + self.samples.shape[1] - 1)
+
     def heights(self, first: int, count: int) -> np.ndarray:
         """Return the heights (2, count) [m], left and right, of the samples `first` ... `first + count - 1`."""
         index = np.clip(np.arange(first, first + count) - self.first, 0, self.samples.shape[1] - 1)
