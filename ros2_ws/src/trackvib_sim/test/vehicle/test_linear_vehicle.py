@@ -145,4 +145,5 @@ def test_brakes_hold_the_vehicle(vehicle, table, standing, unbraked):
     assert [mode.overdamped for mode in held] == [False]
     alone = np.sqrt(2.0 * standing.supports.longitudinal[0] / sum(body.mass for body in table)) / (2.0 * np.pi)
     assert held[0].frequency == pytest.approx(alone, rel=0.1)
-    assert loose and all(mode.overdamped for mode in loose)
+    # bearings alone brake it, so weakly that rounding decides whether both poles, at zero but for minutes, are real
+    assert loose and all(mode.overdamped or mode.frequency < 0.01 for mode in loose)

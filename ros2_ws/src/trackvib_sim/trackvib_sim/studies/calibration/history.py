@@ -7,8 +7,9 @@ import numpy as np
 
 from ...new_files import new_file
 from ..paper.paper_table import COLUMNS
-from .objective import level_speeds
+from .objective import level_speeds, typical_excess
 
+ALIKE = 1.05  # an objective up to this multiple of the best is as good
 _KEYS = ("generation", "index", "objective", "scatter")
 
 
@@ -81,6 +82,16 @@ class History:
     def best(self):
         """The candidate with the smallest objective."""
         return min(self.candidates, key=lambda candidate: candidate.objective)
+
+    @property
+    def alike(self):
+        """Candidates that are as good as the best one, for chance alone makes such differences."""
+        return [each for each in self.candidates if each.objective <= ALIKE * self.best.objective]
+
+    @property
+    def chosen(self):
+        """Of those that are alike the one that rolls most easily."""
+        return min(self.alike, key=lambda candidate: np.nan_to_num(typical_excess(candidate.resistance), nan=np.inf))
 
     def find(self, generation, index, values):
         """Return the candidate at a place if it has been evaluated with these values, else None."""

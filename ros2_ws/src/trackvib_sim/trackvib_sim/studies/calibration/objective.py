@@ -78,6 +78,11 @@ def resistance_outside(resistance):
     return np.maximum(0.0, np.maximum(-over_low, over_high))
 
 
+def typical_excess(resistance):
+    """Return the geometric mean over the speeds of a resistance (speeds, 2) over the high end of its range."""
+    return float(np.exp(np.log(resistance[:, 1]).mean()))
+
+
 def _levels(result):
     if result.status != GOOD:
         return np.full(len(COLUMNS), np.nan)

@@ -10,6 +10,7 @@ from matplotlib.ticker import MaxNLocator  # noqa: E402
 
 from ..paper.paper_table import SENSORS, error_factor  # noqa: E402
 from ..paper.table1_picture import AXES  # noqa: E402
+from .objective import typical_excess  # noqa: E402
 from .sensitivity import PER  # noqa: E402
 
 _WIDE = 6  # panels side by side
@@ -52,19 +53,21 @@ def convergence_picture(file, plan, candidates):
     plt.close(figure)
 
 
-def frontier_picture(file, candidates):
-    """Draw what the table costs in running resistance: all `history.Candidate`s whose runs were good, to a PNG file."""
-    good = [each for each in candidates if np.isfinite(each.ratios).all() and np.isfinite(each.resistance).all()]
+def frontier_picture(file, history):
+    """Draw what the table costs in running resistance: all candidates whose runs were good, to a PNG file."""
+    good = [
+        each for each in history.candidates if np.isfinite(each.ratios).all() and np.isfinite(each.resistance).all()
+    ]
     factor = np.array([error_factor(each.ratios, 1.0) for each in good])
     excess = np.array([typical_excess(each.resistance) for each in good])
-    objective = np.array([each.objective for each in good])
     figure, plot = plt.subplots(figsize=(8.0, 5.6), layout="constrained")
     plot.plot(excess, factor, ".", color="0.65", label="candidate")
     order = np.lexsort((factor, excess))
     best = np.minimum.accumulate(factor[order])
     plot.plot(excess[order], best, color="#d1662b", drawstyle="steps-post", label="frontier")
-    plot.plot(excess[objective.argmin()], factor[objective.argmin()], "o", color="none", markeredgecolor="k",
-              markersize=9, label="least objective")  # fmt: skip
+    for each, sign, label in ((history.best, "s", "least objective"), (history.chosen, "o", "chosen")):
+        place = typical_excess(each.resistance), error_factor(each.ratios, 1.0)
+        plot.plot(*place, sign, color="none", markeredgecolor="k", markersize=10, label=label)
     plot.axvline(1.0, color="k", linestyle="--", linewidth=0.9, label="highest published formula")
     plot.set_xlabel("running resistance over the highest published formula, geometric mean over the speeds")
     plot.set_ylabel("error factor of the table")
@@ -73,11 +76,6 @@ def frontier_picture(file, candidates):
     plot.legend()
     figure.savefig(file, dpi=110, format="png")
     plt.close(figure)
-
-
-def typical_excess(resistance):
-    """Return the geometric mean over the speeds of a resistance (speeds, 2) over the high end of its range."""
-    return float(np.exp(np.log(resistance[:, 1]).mean()))
 
 
 def sensitivity_picture(file, plan, rows, sensitive):

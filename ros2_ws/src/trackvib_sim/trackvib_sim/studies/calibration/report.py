@@ -4,10 +4,10 @@ import numpy as np
 
 from ..case import BAND
 from ..paper.paper_table import COLUMNS, column_bias, error_factor
+from .history import ALIKE
 from .objective import level_speeds
 from .sensitivity import PER, REACH
 
-ALIKE = 1.05  # neighbours have an objective up to this multiple of the best
 NEAR = 0.05  # share of the range that counts as near a bound
 
 
@@ -25,8 +25,7 @@ def report(plan, start, history, rows, sensitive):
     sensitive : sensitivity.Sensitivity
         At the best candidate.
     """
-    best, first = history.best, history.candidates[0]
-    neighbours = [each for each in history.candidates if each.objective <= ALIKE * best.objective]
+    best, first, neighbours = history.chosen, history.candidates[0], history.alike
     return "\n".join(
         [
             _head(plan, history, rows, best, first),
@@ -56,9 +55,10 @@ Search: CMA-ES, {generations} generations of {plan.population}, seed {plan.seed}
 | objective | {first.objective:.4f} | {best.objective:.4f} |
 | error factor | {_plain(error_factor(first.ratios, 1.0))} | {_plain(error_factor(best.ratios, 1.0))} |
 
-The calibrated set is candidate {best.index} of generation {best.generation}.
-Of all that were tried its objective is the smallest, so partly by luck: the standard error of one of its numbers,
-from the scatter among the runs of a row, is {_percent(best.scatter)}.
+The calibrated set is candidate {best.index} of generation {best.generation}: of all whose objective is at most
+{100.0 * (ALIKE - 1.0):.0f} % above the smallest, {history.best.objective:.4f}, the one that rolls most easily. Whose
+objective is the smallest is partly luck: the standard error of one of its numbers, from the scatter among the runs of a
+row, is {_percent(best.scatter)}.
 An honest comparison is `trackvib study table1` with `vehicle.yaml`, which drives over other roads.
 """
 
@@ -85,7 +85,8 @@ def _resistance(rows, history, best, first):
     lines = ["## Running resistance", "", "On level ground, over the lowest and the highest published formula.", ""]
     speeds = level_speeds(rows)
     lines += [_line("", *(f"{speed:g} m/s" for speed in speeds), "error factor"), "|" + "---|" * (len(speeds) + 2)]
-    for name, each in (("start", first), ("calibrated", best), ("best by the table alone", table)):
+    named = ("start", first), ("calibrated", best), ("least objective", history.best), ("by the table alone", table)
+    for name, each in named:
         cells = (f"{_plain(low)}, {_plain(high)}" for low, high in each.resistance)
         lines.append(_line(name, *cells, _plain(error_factor(each.ratios, 1.0))))
     return "\n".join([*lines, "", "![frontier](frontier.png)"]) + "\n"
@@ -95,8 +96,8 @@ def _parameters(plan, start, best, neighbours, sensitive):
     lines = [
         "## Parameters",
         "",
-        f"The set is not unique: {len(neighbours)} candidates, the best one among them, have an objective at most "
-        f"{100.0 * (ALIKE - 1.0):.0f} % above the best; the table gives the range that they span.",
+        f"The set is not unique: the table gives the range that all {len(neighbours)} candidates span whose objective "
+        f"is at most {100.0 * (ALIKE - 1.0):.0f} % above the smallest.",
         "Strength: root mean square, over all numbers of the table, of the change of the RMS when the parameter moves "
         f"by {100.0 * PER:.0f} % of its range, from runs {100.0 * REACH:.0f} % below and above; "
         f"noise alone gives {_percent(sensitive.noise)}. The strongest first.",

@@ -64,7 +64,7 @@ def run_calibrate(plan_file, vehicle_file, without, generations, scheduler, out)
         candidates = Candidates(client, text, plan, runs, paper)
         start = plan.values(plan.shares([parameter.of(vehicle) for parameter in plan.parameters]))
         search(candidates, history, start, generations or plan.generations, progress)
-        best = history.best
+        best = history.chosen
         _write_vehicle(folder / "vehicle.yaml", text, plan, best.values)
         with new_file(folder / "values.yaml") as file:
             file.write(yaml.safe_dump(dict(zip(plan.items, best.values, strict=True)), sort_keys=False).encode())
@@ -76,7 +76,7 @@ def run_calibrate(plan_file, vehicle_file, without, generations, scheduler, out)
     with new_file(folder / "convergence.png") as file:
         convergence_picture(file, plan, history.candidates)
     with new_file(folder / "frontier.png") as file:
-        frontier_picture(file, history.candidates)
+        frontier_picture(file, history)
     with new_file(folder / "calibration.md") as file:
         file.write(report(plan, start, history, list(paper), sensitive).encode())
     console.print(
