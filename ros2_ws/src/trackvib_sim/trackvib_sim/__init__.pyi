@@ -15,7 +15,6 @@ from .road.obstacles import ObstacleRoad as ObstacleRoad
 from .road.obstacles import Step as Step
 from .road.profile import Profile as Profile
 from .road.profile import ProfileRoad as ProfileRoad
-from .road.profile import checked as checked_profile
 from .road_sources.road_file import find_road as find_road
 from .road.iso8608 import Exponential as Exponential
 from .road.iso8608 import Iso8608Road as Iso8608Road

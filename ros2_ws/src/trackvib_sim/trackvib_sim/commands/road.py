@@ -47,7 +47,9 @@ def run_road(text, seed, length, begin, tread, csv, crg, out):
     console = Terminal()
     console.print(_table(heights, road, f"{road_in_words(text)}, {distance[0]:g} to {distance[-1]:g} m"))
     if road.spacing < SHORTEST:
-        console.print(f"samples are {road.spacing:g} m apart; what is shorter than a link, shoes bridge", soft_wrap=True)
+        console.print(
+            f"samples are {road.spacing:g} m apart; what is shorter than a link, shoes bridge", soft_wrap=True
+        )
     console.print(f"left: {', '.join(map(str, paths))}", soft_wrap=True)
 
 

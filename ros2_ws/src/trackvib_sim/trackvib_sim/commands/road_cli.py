@@ -13,7 +13,10 @@ from .option_types import FiniteRange
     "--length", type=FiniteRange(10.0, 1e5), default=500.0, show_default=True, help="Length in m that is looked at."
 )
 @click.option(
-    "--begin", type=FiniteRange(-1e6, 1e6), default=None, help="Where that begins, in m.  [default: where the road does]"
+    "--begin",
+    type=FiniteRange(-1e6, 1e6),
+    default=None,
+    help="Where it begins, in m.  [default: where the road does]",
 )
 @click.option(
     "--tread", type=FiniteRange(0.0, 10.0), default=2.8, show_default=True, help="Distance between the tracks in m."

@@ -21,7 +21,7 @@ from scipy.special import k1
 
 from ..numerics.compiled import kernel
 
-CLASSES = "ABCDEFGH"
+CLASSES = tuple("ABCDEFGH")
 REFERENCE_FREQUENCY = 0.1  # 1/m
 LOWEST, HIGHEST = 0.011, 2.83  # 1/m, the standard's range
 HARMONICS = 1000
@@ -94,9 +94,10 @@ class Exponential:
 
 @dataclass(frozen=True)
 class Iso8608Road:
-    """A random road of one class, or of a roughness of one's own, without end, level up to `level_until` from its beginning, then faded in over `fade` [m].
+    """A random road of one class, or of a roughness of one's own, without end.
 
-    So it is behind the beginning as well.
+    It is level up to `level_until` from its beginning, then faded in over `fade` [m], and so it is behind the
+    beginning.
 
     Sample i lies at distance i * `spacing`. Harmonics lie one in each of `HARMONICS` logarithmic bands, at a random
     place of it, so that the profile has no period.

@@ -1,7 +1,7 @@
 """Obstacles of proving grounds, on one side or both, that stand on any road.
 
-Half-rounds are the obstacles of the ride tests of NRMM, the NATO Reference Mobility Model [NRMM], ramps and square bumps
-those of tank trials such as [Sattinger1954], sine waves the washboard courses of Aberdeen Proving Ground.
+Half-rounds are the obstacles of the ride tests of NRMM, the NATO Reference Mobility Model [NRMM], ramps and square
+bumps those of tank trials such as [Sattinger1954], sine waves the washboard courses of Aberdeen Proving Ground.
 
 [NRMM] R. B. Ahlvin, P. W. Haley, NATO Reference Mobility Model, edition II, TR GL-92-19, US Army WES, 1992.
 [Sattinger1954] I. J. Sattinger and others, Analysis of the suspension system of the M47 tank by means of simulation

@@ -39,7 +39,9 @@ def checked(distance, heights, name):
     for what, values in (("distance", distance), ("left height", heights[0]), ("right height", heights[1])):
         odd = np.flatnonzero(~np.isfinite(values))
         if odd.size:
-            raise ProfileError(f"{name}: {what} of sample {odd[0] + 1} is {values[odd[0]]}, accepted are finite numbers")
+            raise ProfileError(
+                f"{name}: {what} of sample {odd[0] + 1} is {values[odd[0]]}, accepted are finite numbers"
+            )
     step = np.diff(distance)
     odd = np.flatnonzero(step <= 0.0)
     if odd.size:
@@ -59,8 +61,8 @@ def checked(distance, heights, name):
         if slope.max() > STEEPEST:
             k = slope.argmax()
             raise ProfileError(
-                f"{name}: {side} rises by {values[k + 1] - values[k]:g} m from {distance[k]:g} m on over {step[k]:g} m, "
-                f"accepted are {STEEPEST:g} m/m; is the unit right?"
+                f"{name}: {side} rises by {values[k + 1] - values[k]:g} m from {distance[k]:g} m on "
+                f"over {step[k]:g} m, accepted are {STEEPEST:g} m/m; is the unit right?"
             )
     return Profile(distance, heights)
 
@@ -69,8 +71,9 @@ def checked(distance, heights, name):
 class ProfileRoad:
     """A `Profile` as a road: level before and behind it, at the heights of its ends, or repeated.
 
-    Each side begins at height zero, for a vehicle starts on level ground. Samples of a profile that are evenly spaced, 1 mm to 1 m, stay as they are. Others are taken by linear interpolation
-    at the least distance between them, at least 1 mm.
+    Each side begins at height zero, for a vehicle starts on level ground. Samples of a profile that are evenly spaced,
+    1 mm to 1 m, stay as they are. Others are taken by linear interpolation at the least distance between them, at least
+    1 mm.
 
     Examples
     --------

@@ -159,7 +159,8 @@ def _tracks(head, grid, tread, name):
     half = 0.5 * tread
     if across[0] > -half or across[-1] < half:
         raise ProfileError(
-            f"{name} reaches from {across[0]:g} to {across[-1]:g} m across, the vehicle's tracks run at -{half:g} and {half:g} m"
+            f"{name} reaches from {across[0]:g} to {across[-1]:g} m across, "
+            f"the vehicle's tracks run at -{half:g} and {half:g} m"
         )
     heights = np.stack([_along(across, surface, v, name) for v in (half, -half)])
     slope = line.get("slope", np.full(len(grid), values.get("reference_line_start_s", 0.0)))

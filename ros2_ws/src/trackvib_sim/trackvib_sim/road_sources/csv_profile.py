@@ -37,7 +37,9 @@ def read_csv_profile(path):
         with path.open(newline="", encoding="utf-8-sig") as file:
             return _read(file, str(path))
     except UnicodeDecodeError as error:
-        raise ProfileError(f"{path} is no text in UTF-8: byte {error.start} is 0x{error.object[error.start]:02x}") from None
+        raise ProfileError(
+            f"{path} is no text in UTF-8: byte {error.start} is 0x{error.object[error.start]:02x}"
+        ) from None
 
 
 def write_csv_profile(path, distance, heights):

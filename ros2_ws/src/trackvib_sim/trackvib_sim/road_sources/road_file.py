@@ -1,15 +1,15 @@
 """Roads by name or file: what `--road` and the road node's `road_file` take.
 
-    E                a class of ISO 8608
-    profile.csv      a profile (`csv_profile`)
-    surface.crg      an OpenCRG surface (`crg`)
-    a bag            the road of a recorded run
-    road.yaml        any of these with options, or a roughness of one's own, and obstacles on top:
+E                a class of ISO 8608
+profile.csv      a profile (`csv_profile`)
+surface.crg      an OpenCRG surface (`crg`)
+a bag            the road of a recorded run
+road.yaml        any of these with options, or a roughness of one's own, and obstacles on top:
 
-    ground: {class: C, seed: 3}                       or {level: 2.0e-4, waviness: 2.3, seed: 3}
-                                                      or {file: profile.csv, start: 10, reverse: true, repeat: true}
-    obstacles:
-      - {shape: half_round, at: 30, radius: 0.15, side: left}
+ground: {class: C, seed: 3}                       or {level: 2.0e-4, waviness: 2.3, seed: 3}
+                                                  or {file: profile.csv, start: 10, reverse: true, repeat: true}
+obstacles:
+  - {shape: half_round, at: 30, radius: 0.15, side: left}
 """
 
 from pathlib import Path
@@ -17,12 +17,12 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from ..yaml_text import YamlTextError, read_text, validated
-from .crg import read_crg
-from .csv_profile import read_csv_profile
 from ..road.iso8608 import CLASSES, FADE, HIGHEST, LEVEL_UNTIL, LOWEST, SPACING, Iso8608Road, Isotropic, Roughness
 from ..road.obstacles import FINE, LevelRoad, Obstacle, ObstacleRoad
 from ..road.profile import COARSEST, FINEST, ProfileError, ProfileRoad
+from ..yaml_text import YamlTextError, read_text, validated
+from .crg import read_crg
+from .csv_profile import read_csv_profile
 from .recorded import read_recorded_road
 
 MOST_OBSTACLES = 10_000

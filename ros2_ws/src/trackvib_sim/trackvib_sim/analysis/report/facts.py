@@ -51,7 +51,8 @@ def _parameters_with(report_data, parameter):
 
 def _road(report_data):
     known = _road_parameters(report_data)
-    return ", ".join(words for words in (known.get("road"), f"seed {known['seed']}" if "seed" in known else None) if words)
+    words = [known["road"]] if "road" in known else []
+    return ", ".join([*words, f"seed {known['seed']}"] if "seed" in known else words)
 
 
 def _road_parameters(report_data):
