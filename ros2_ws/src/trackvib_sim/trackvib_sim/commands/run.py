@@ -28,7 +28,7 @@ from ..data import find_vehicle
 from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses, closed_loop_parameters
 from ..nodes.watch import Watch
 from ..road.iso8608 import TREAD
-from ..road_sources.road_file import RoadError, find_road, road_in_words
+from ..road_sources.road_file import RoadError, find_road, road_in_words, whole_name
 from ..vehicle.mount_energy import MountEnergy
 from ..vehicle.step_size import recommended_rate
 from ..vehicle.vehicle_file import VehicleFileError, read_vehicle
@@ -135,7 +135,7 @@ def _run_nodes(choices, vehicle, tread, folder, console):
     `vehicle` is the path of its file, `tread` the distance between its tracks [m].
     """
     overrides = {
-        "road_excitation": {"road": choices.road, "seed": choices.seed, "track_distance": tread},
+        "road_excitation": {"road": whole_name(choices.road), "seed": choices.seed, "track_distance": tread},
         "controller": {"law": choices.law},
         "recorder": {"bag": str(folder / "bag")},
         "simulator": {

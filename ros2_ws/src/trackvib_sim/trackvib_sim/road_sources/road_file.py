@@ -127,6 +127,11 @@ def road_in_words(text):
     return f"class {text}" if text in CLASSES else f"road {Path(text).name}"
 
 
+def whole_name(text):
+    """Return the same road's name for a process in another folder: of a file its whole path."""
+    return text if text in CLASSES else str(Path(text).absolute())
+
+
 def road_from_file(path, tread, start=DEFAULT_START, reverse=False, repeat=False):
     """Return the road in a CSV or OpenCRG file, beginning at `start` [m], or that of a bag, which is where it was.
 
