@@ -35,13 +35,13 @@ def wait_for_end(processes, exchanges):
 
 @click.command(help=__doc__.splitlines()[0])
 @click.argument("exchanges", type=click.IntRange(1), default=1_000_000)
-@click.option("--road-class", default="C", show_default=True)
-def main(exchanges, road_class):
+@click.option("--road", default="C", show_default=True)
+def main(exchanges, road):
     print(machine())
     overrides = {
         "simulator": {"duration": exchanges / RATE, "wait_for_recorder": False},
         "controller": {"law": "skyhook", "wait_for_recorder": False},
-        "road_excitation": {"road_class": road_class},
+        "road_excitation": {"road": road},
     }
     with tempfile.TemporaryDirectory() as logs:
         processes = LoopProcesses(PROCESSES, closed_loop_parameters(), overrides, logs)

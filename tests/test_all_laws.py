@@ -19,7 +19,7 @@ from .conftest import UNHURRIED
 pytestmark = [pytest.mark.system, pytest.mark.slow(reason="each law drives three whole loops")]
 
 SAMPLES = 1000
-ROAD = {"road_class": "E", "seed": 1, "level_until": 1.0, "fade": 1.0}
+ROAD = {"road": "E", "seed": 1, "level_until": 1.0, "fade": 1.0}
 
 
 @pytest.fixture(scope="module")

@@ -111,7 +111,7 @@ def test_real_time_falls_silent_as_well(start_node):
 
 def test_overturned_vehicle_fails_the_run(start_node):
     """A road beyond the valid range ends the simulator with an error that names reason and time."""
-    start_node("road_excitation", road_class="H")
+    start_node("road_excitation", road="H")
     start_node("controller")
     simulator = start_node("simulator", speed=25.0)
     assert simulator.wait() != 0

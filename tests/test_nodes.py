@@ -42,7 +42,7 @@ def test_waits_and_ends_cleanly(start_node, tmp_path, name, number):
         ("simulator", {"control_rate": 3000}, ["physics_rate 10000", "control_rate 3000", "clash"]),
         ("simulator", {"engine_speed": 200.0}, ["'engine_speed'", "200.0", "450 to 2100"]),
         ("simulator", {"vehicle_file": "/nowhere.yaml"}, ["'vehicle_file'", "/nowhere.yaml"]),
-        ("road_excitation", {"road_class": "Q"}, ["'road_class'", "'Q'", "A, B, C, D, E, F, G, H"]),
+        ("road_excitation", {"road": "Q"}, ["'road'", "'Q'", "A, B, C, D, E, F, G, H"]),
         ("road_excitation", {"seed": -1}, ["'seed'", "-1", "0 to"]),
         ("controller", {"law": "magic"}, ["'law'", "'magic'", "passive", "skyhook"]),
         ("controller", {"law": "json:JSONDecoder"}, ["'law'", "json:JSONDecoder", "ControlLaw"]),

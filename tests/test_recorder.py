@@ -186,7 +186,7 @@ def test_topics_by_pattern_are_taken_up_when_they_appear(start, start_node, tmp_
 @SLOW
 def test_bag_says_what_made_it(start_node, start, tmp_path):
     """Vehicle file and parameters lie in it as files; the parameters start the same nodes again."""
-    start_node("road_excitation", seed=7, road_class="C")
+    start_node("road_excitation", seed=7, road="C")
     start_node("controller", law="skyhook", firm_current=2.5, wait_for_recorder=True)
     recorder = start_node("recorder", bag=tmp_path / "bag")
     assert start_node("simulator", duration=0.3, speed=7.5, wait_for_recorder=True).wait() == 0

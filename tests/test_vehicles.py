@@ -79,7 +79,7 @@ def test_four_coils_and_a_slow_sensor(tmp_path, four_coils):
 
 def test_backwards(tmp_path):
     """The vehicle drives back along the road, which comes in time, and so it does again."""
-    trackvib("run", "--speed", -8, "--road-class", "C", "--duration", DURATION, "--out", tmp_path / "run")
+    trackvib("run", "--speed", -8, "--road", "C", "--duration", DURATION, "--out", tmp_path / "run")
     odometry = read_recording(tmp_path / "run" / "bag").odometry
     assert odometry.speed.mean() == pytest.approx(-8.0, abs=0.2)
     assert odometry.position[-1, 0] == pytest.approx(-8.0 * DURATION, abs=1.0)

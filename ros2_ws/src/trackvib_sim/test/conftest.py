@@ -171,6 +171,7 @@ class Heights:
 
     left: object
     right: object
+    spacing = 0.05  # m
 
     def heights(self, first, count):
         """Return the heights (2, count) of samples 0.05 m apart."""

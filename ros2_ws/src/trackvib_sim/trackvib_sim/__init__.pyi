@@ -10,9 +10,17 @@ from .vehicle.vehicle_file import read_vehicle as read_vehicle
 
 # roads
 from .road.bump import Bump as Bump
+from .road.obstacles import LevelRoad as LevelRoad
+from .road.obstacles import ObstacleRoad as ObstacleRoad
+from .road.obstacles import Step as Step
+from .road.profile import Profile as Profile
+from .road.profile import ProfileRoad as ProfileRoad
+from .road_sources.road_file import find_road as find_road
 from .road.iso8608 import Exponential as Exponential
 from .road.iso8608 import Iso8608Road as Iso8608Road
 from .road.iso8608 import Isotropic as Isotropic
+from .road.iso8608 import Roughness as Roughness
+from .road.iso8608 import roughness_of as roughness_of
 
 # simulation; control laws come from `mr_mount_controller.laws`
 from .simulation.closed_loop import Record as Record

@@ -13,10 +13,10 @@ from .commands.bag_cli import bag
 from .commands.endings import fail, say
 from .commands.lasting_output import OutputLost, lasting_output
 from .commands.mount_cli import mount
-from .commands.option_types import INTERRUPTED, FiniteRange, known_law, vehicle_option
+from .commands.option_types import INTERRUPTED, FiniteRange, known_law, known_road, vehicle_option
 from .commands.replay_cli import replay
+from .commands.road_cli import road
 from .commands.study_cli import study
-from .road.iso8608 import CLASSES
 
 
 class _Verbs(click.Group):
@@ -66,11 +66,12 @@ def _interrupt():
 @main.command()
 @vehicle_option
 @click.option(
-    "--road-class",
-    type=click.Choice(list(CLASSES)),
+    "--road",
     default="E",
     show_default=True,
-    help="Class of the road by ISO 8608.",
+    callback=known_road,
+    metavar="CLASS|FILE",
+    help="Class by ISO 8608, A to H, or a file: profile (CSV), OpenCRG, road file (YAML), or a bag.",
 )
 @click.option(
     "--speed",
@@ -173,6 +174,7 @@ main.add_command(bag)
 main.add_command(mount)
 main.add_command(replay)
 main.add_command(study)
+main.add_command(road)
 
 if __name__ == "__main__":
     main(prog_name="trackvib")

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_array_equal
-from trackvib_sim.road.feeder import BEHIND, PATCH, RoadFeeder
+from trackvib_sim.road.feeder import BEHIND, LENGTH, RoadFeeder
 from trackvib_sim.road.iso8608 import SPACING, Iso8608Road
 from trackvib_sim.road.store import RoadStore
 
@@ -34,15 +34,17 @@ def test_vehicle_always_has_the_road_around_it(level, start, steps, horizon):
 
 
 @pytest.mark.property
-def test_patches_are_the_road(road):
+@pytest.mark.parametrize("spacing", [SPACING, 0.01, 0.3])
+def test_patches_are_the_road(spacing):
     """Patches follow each other without gap from BEHIND the vehicle, and hold the road's own samples."""
-    patches = list(RoadFeeder(road, 50.0).patches(12.0))
+    road = Iso8608Road("E", 1, 8.0, 8.0, spacing=spacing)
+    patches, patch = list(RoadFeeder(road, 50.0).patches(12.0)), round(LENGTH / spacing)
     assert patches[0][0] <= 12.0 - BEHIND < patches[1][0]
-    assert patches[-1][0] < 62.0 <= patches[-1][0] + PATCH * SPACING
-    for k, (start, spacing, heights) in enumerate(patches):
-        first = round(patches[0][0] / SPACING) + k * PATCH
-        assert spacing == SPACING and start == pytest.approx(first * SPACING, abs=1e-9)
-        assert_array_equal(heights, road.heights(first, PATCH))
+    assert patches[-1][0] < 62.0 <= patches[-1][0] + patch * spacing
+    for k, (start, told, heights) in enumerate(patches):
+        first = round(patches[0][0] / spacing) + k * patch
+        assert told == spacing and start == pytest.approx(first * spacing, abs=1e-9)
+        assert_array_equal(heights, road.heights(first, patch))
 
 
 @pytest.mark.property

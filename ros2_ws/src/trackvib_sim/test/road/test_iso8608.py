@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy import signal
-from trackvib_sim.road.iso8608 import CLASSES, SPACING, Exponential, Iso8608Road, Isotropic, roughness
+from trackvib_sim.road.iso8608 import CLASSES, SPACING, Exponential, Iso8608Road, Isotropic, roughness_of
 
 LENGTH = 20_000  # samples, 1 km
 SEEDS = range(5)
@@ -42,9 +42,9 @@ def spread(low, high):
 def test_class_means_are_the_standards():
     """At 0.1 1/m the geometric means are 16, 64, 256 ... 1e-6 m^3, and the PSD falls with the square of n."""
     means = [16e-6, 64e-6, 256e-6, 1024e-6, 4096e-6, 16384e-6, 65536e-6, 262144e-6]
-    assert [float(roughness(c, 0.1)) for c in CLASSES] == pytest.approx(means, rel=1e-14)
-    assert CLASSES == "ABCDEFGH"
-    assert roughness("D", 1.0) == pytest.approx(roughness("D", 0.1) / 100.0, rel=1e-14)
+    assert [float(roughness_of(c).psd(0.1)) for c in CLASSES] == pytest.approx(means, rel=1e-14)
+    assert "".join(CLASSES) == "ABCDEFGH"
+    assert roughness_of("D").psd(1.0) == pytest.approx(roughness_of("D").psd(0.1) / 100.0, rel=1e-14)
 
 
 @pytest.mark.slow(reason="sums the power of long roads")
@@ -58,7 +58,7 @@ def test_octaves_have_the_power_of_the_class(low, high):
     """
     frequency, ll, rr, _ = spectra()
     band = (frequency >= low) & (frequency < high)
-    expected = roughness("C", frequency[band]).mean()
+    expected = roughness_of("C").psd(frequency[band]).mean()
     for side in (ll, rr):
         assert side[band].mean() == pytest.approx(expected, rel=4.0 * spread(low, high) + 0.05)
 
@@ -74,7 +74,7 @@ def test_left_and_right_are_coherent_as_stated(low, high, coherence):
     """
     frequency, ll, rr, lr = spectra(coherence)
     band = (frequency >= low) & (frequency < high)
-    weight = roughness("C", frequency[band])
+    weight = roughness_of("C").psd(frequency[band])
     expected = np.sum(weight * coherence(frequency[band])) / np.sum(weight)
     got = lr[band].sum() / np.sqrt(ll[band].sum() * rr[band].sum())
     bound = 4.0 * spread(low, high) + 0.05

@@ -76,6 +76,7 @@ class Wall:
     """A level road with a wall of 3 m across it."""
 
     distance: float  # m
+    spacing = 0.05  # m
 
     def heights(self, first, count):
         """Return the heights (2, count) of samples 0.05 m apart."""

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import socket
 from contextlib import contextmanager
@@ -25,8 +26,9 @@ from ..bags.reading import read_recording
 from ..console import Description, Terminal
 from ..data import find_vehicle
 from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses, closed_loop_parameters
-from ..nodes.road_excitation import PARAMETERS as ROAD_PARAMETERS
 from ..nodes.watch import Watch
+from ..road.iso8608 import TREAD
+from ..road_sources.road_file import RoadError, find_road, road_in_words, whole_name
 from ..vehicle.mount_energy import MountEnergy
 from ..vehicle.step_size import recommended_rate
 from ..vehicle.vehicle_file import VehicleFileError, read_vehicle
@@ -41,7 +43,7 @@ class Choices:
     """What the user chose."""
 
     vehicle: str | None  # name or file; None for the default one
-    road_class: str
+    road: str  # class, or file
     speed: float
     duration: float
     law: str
@@ -51,15 +53,14 @@ class Choices:
 
     @property
     def settling(self):
-        """How long the run settles [s], on the road as the node makes it by default."""
-        road = {parameter.name: parameter.default for parameter in ROAD_PARAMETERS}
-        return settling_time(self.speed, road["level_until"] + road["fade"])
+        """How long the run settles [s]: until all of the vehicle is on the road proper."""
+        return settling_time(self.speed, find_road(self.road, TREAD).begins)
 
     @property
     def title(self):
         """The run in words."""
         vehicle = f"vehicle {self.vehicle}, " if self.vehicle else ""
-        road = f"class {self.road_class}, {self.speed:g} m/s"
+        road = f"{road_in_words(self.road)}, {self.speed:g} m/s"
         return f"{vehicle}{road}, law {self.law}, seed {self.seed}, {self.duration:g} s"
 
 
@@ -74,7 +75,10 @@ def run_loop(choices, out):
     KeyboardInterrupt
         After the nodes have ended in order and what there is has been summarised.
     """
-    needed = choices.settling + SHORTEST_MEASURING
+    try:
+        needed = choices.settling + SHORTEST_MEASURING
+    except RoadError as error:
+        raise CommandError(str(error)) from None
     if choices.duration < needed:
         raise CommandError(
             f"--duration is {choices.duration:g} s, must be at least {needed:.1f} s at {choices.speed:g} m/s: "
@@ -86,7 +90,7 @@ def run_loop(choices, out):
     except VehicleFileError as error:
         raise CommandError(str(error)) from None
     with own_domain():
-        name = f"{datetime.now():%Y%m%dT%H%M%S}_{choices.road_class}_{choices.speed:g}"
+        name = f"{datetime.now():%Y%m%dT%H%M%S}_{_short(choices.road)}_{choices.speed:g}"
         folder = make_folder(out or Path("runs") / name)
         with writing_to(folder):
             (folder / "log").mkdir()
@@ -131,7 +135,7 @@ def _run_nodes(choices, vehicle, tread, folder, console):
     `vehicle` is the path of its file, `tread` the distance between its tracks [m].
     """
     overrides = {
-        "road_excitation": {"road_class": choices.road_class, "seed": choices.seed, "track_distance": tread},
+        "road_excitation": {"road": whole_name(choices.road), "seed": choices.seed, "track_distance": tread},
         "controller": {"law": choices.law},
         "recorder": {"bag": str(folder / "bag")},
         "simulator": {
@@ -202,6 +206,11 @@ def _evaluate(choices, folder, console):
             _print_summary(Terminal(file=file, width=100), summary, folder)
     _print_summary(console, summary, folder)
     return missing(recording)
+
+
+def _short(road):
+    """The road as a part of a file's name."""
+    return re.sub(r"[^A-Za-z0-9-]+", "-", Path(road).stem)[:40] or "road"
 
 
 def _print_summary(console, summary, folder):

@@ -4,7 +4,8 @@ import sys
 
 from mr_mount_controller.node_base.listener import Refused
 from mr_mount_controller.node_base.loop_node import LoopNode, run_node
-from mr_mount_controller.node_base.parameters import Parameter
+from mr_mount_controller.node_base.parameters import Parameter, ParameterError
+from mr_mount_controller.node_base.plain_text import plain_line
 from mr_mount_controller.node_base.qos import LATCHED_QOS, ROAD_QOS
 from mr_mount_controller.node_base.topics import ODOMETRY, ROAD_FRAME, ROAD_PROFILE
 from nav_msgs.msg import Odometry
@@ -12,9 +13,10 @@ from trackvib_msgs.msg import RoadProfile
 
 from ..road.feeder import RoadFeeder
 from ..road.iso8608 import CLASSES, FADE, LEVEL_UNTIL, TREAD, Exponential, Iso8608Road, Isotropic
+from ..road_sources.road_file import RoadError, find_road
 
 PARAMETERS = (
-    Parameter("road_class", "E", "Class of the road by ISO 8608.", choices=tuple(CLASSES)),
+    Parameter("road", "E", "Class by ISO 8608, A to H, or a file: profile (CSV), OpenCRG, road file (YAML), or a bag."),
     Parameter("seed", 1, "Seed of the profile; the same seed gives the same road.", "", 0, 10**9),
     Parameter("coherence", "isotropic", "Of left and right, over frequency.", choices=("isotropic", "exponential")),
     Parameter("track_distance", TREAD, "Distance of left and right on an isotropic surface.", "m", 0.0, 10.0),
@@ -32,14 +34,12 @@ class RoadExcitationNode(LoopNode):
     def __init__(self):
         super().__init__("road_excitation", PARAMETERS)
         s = self.settings
-        isotropic = s["coherence"] == "isotropic"
-        coherence = Isotropic(s["track_distance"]) if isotropic else Exponential(s["coherence_length"])
-        self._road = Iso8608Road(s["road_class"], s["seed"], s["level_until"], s["fade"], coherence)
+        self._road = _road(s)
         self._feeder = RoadFeeder(self._road, s["horizon"])
         self._last = (0, 0)  # stamp of the latest odometry, s and ns
         self._patches = self.create_publisher(RoadProfile, ROAD_PROFILE, ROAD_QOS)
         self.listen(Odometry, ODOMETRY, self._on_odometry, LATCHED_QOS)
-        self.get_logger().info(f"road of class {s['road_class']}, seed {s['seed']}; waiting for a vehicle's odometry")
+        self.get_logger().info(f"road {plain_line(s['road'])}; waiting for a vehicle's odometry")
 
     def _on_odometry(self, odometry):
         position = odometry.pose.pose.position.x
@@ -54,6 +54,18 @@ class RoadExcitationNode(LoopNode):
             patch.header.stamp = odometry.header.stamp
             patch.header.frame_id = ROAD_FRAME
             self._patches.publish(patch)
+
+
+def _road(s):
+    """Return the road that the parameters' values ask for."""
+    if s["road"] in CLASSES:
+        isotropic = s["coherence"] == "isotropic"
+        coherence = Isotropic(s["track_distance"]) if isotropic else Exponential(s["coherence_length"])
+        return Iso8608Road(s["road"], s["seed"], s["level_until"], s["fade"], coherence)
+    try:
+        return find_road(s["road"], s["track_distance"])
+    except RoadError as error:
+        raise ParameterError(f"parameter 'road': {error}") from None
 
 
 def main(args=None):

@@ -21,9 +21,10 @@ class Bump:
     height: float  # m
     length: float  # m
     start: float  # m
+    spacing: float = SPACING  # m, between samples
 
     def heights(self, first: int, count: int) -> np.ndarray:
         """Return the heights (2, count) [m], left and right, of the samples `first` ... `first + count - 1`."""
-        place = (SPACING * np.arange(first, first + count) - self.start) / self.length
+        place = (self.spacing * np.arange(first, first + count) - self.start) / self.length
         bump = np.where((place > 0.0) & (place < 1.0), 0.5 * self.height * (1.0 - np.cos(2.0 * np.pi * place)), 0.0)
         return np.stack((bump, bump))

@@ -14,13 +14,14 @@ the coherence x K1(x), x = 2 pi n d, between two lines d apart [Kamash1978]; K1 
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from scipy.special import k1
 
 from ..numerics.compiled import kernel
 
-CLASSES = "ABCDEFGH"
+CLASSES = tuple("ABCDEFGH")
 REFERENCE_FREQUENCY = 0.1  # 1/m
 LOWEST, HIGHEST = 0.011, 2.83  # 1/m, the standard's range
 HARMONICS = 1000
@@ -29,9 +30,29 @@ TREAD = 2.8  # m between the tracks, by default
 LEVEL_UNTIL, FADE = 8.0, 8.0  # m, by default: a vehicle starts on level ground, then the roughness fades in
 
 
-def roughness(road_class, frequency):
-    """Return the one-sided displacement PSD G_d(n) [m^3] of a road class at spatial frequencies [1/m]."""
-    return 16e-6 * 4.0 ** CLASSES.index(road_class) * (np.asarray(frequency) / REFERENCE_FREQUENCY) ** -2.0
+class Roughness(NamedTuple):
+    """A displacement PSD as [ISO8608] writes it, G_d(n) = level (n / n0)^-waviness within a band.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> tv.roughness_of("C").level, tv.Roughness(1e-4, waviness=2.5).psd(0.1)
+    (0.000256, np.float64(0.0001))
+    """
+
+    level: float  # G_d(n0), m^3
+    waviness: float = 2.0
+    lowest: float = LOWEST  # 1/m
+    highest: float = HIGHEST
+
+    def psd(self, frequency):
+        """Return the one-sided PSD [m^3] at spatial frequencies [1/m]."""
+        return self.level * (np.asarray(frequency) / REFERENCE_FREQUENCY) ** -self.waviness
+
+
+def roughness_of(road_class: str) -> Roughness:
+    """Return the `Roughness` of one of the standard's classes, its geometric mean."""
+    return Roughness(16e-6 * 4.0 ** CLASSES.index(road_class))
 
 
 @dataclass(frozen=True)
@@ -73,11 +94,12 @@ class Exponential:
 
 @dataclass(frozen=True)
 class Iso8608Road:
-    """A road of one class without end, level up to `level_until` from its beginning, then faded in over `fade` [m].
+    """A random road of one class, or of a roughness of one's own, without end.
 
-    So it is behind the beginning as well.
+    It is level up to `level_until` from its beginning, then faded in over `fade` [m], and so it is behind the
+    beginning.
 
-    Sample i lies at distance i * `SPACING`. Harmonics lie one in each of `HARMONICS` logarithmic bands, at a random
+    Sample i lies at distance i * `spacing`. Harmonics lie one in each of `HARMONICS` logarithmic bands, at a random
     place of it, so that the profile has no period.
 
     Examples
@@ -90,11 +112,19 @@ class Iso8608Road:
     ((2, 1000), True)
     """
 
-    road_class: str
+    roughness: str | Roughness  # a class by its letter
     seed: int
     level_until: float = LEVEL_UNTIL
     fade: float = FADE
     coherence: Callable = Isotropic()  # of left and right, function of the spatial frequency
+    spacing: float = SPACING  # m, between samples
+
+    ends = np.inf  # m
+
+    @property
+    def begins(self) -> float:
+        """Distance from which the road has all of its roughness [m]."""
+        return self.level_until + self.fade
 
     def heights(self, first: int, count: int) -> np.ndarray:
         """Return the heights (2, count) [m], left and right, of the samples `first` ... `first + count - 1`.
@@ -102,15 +132,16 @@ class Iso8608Road:
         The result for a sample does not depend on which patch it is asked in, to the last bit.
         """
         heights = np.empty((2, count))
-        _superpose(heights, first, SPACING, *self._harmonics, self.level_until, self.fade)
+        _superpose(heights, first, self.spacing, *self._harmonics, self.level_until, self.fade)
         return heights
 
     @cached_property
     def _harmonics(self):
         random = np.random.default_rng(self.seed)
-        edges = np.geomspace(LOWEST, HIGHEST, HARMONICS + 1)
+        given = roughness_of(self.roughness) if isinstance(self.roughness, str) else self.roughness
+        edges = np.geomspace(given.lowest, given.highest, HARMONICS + 1)
         frequency = edges[:-1] + (edges[1:] - edges[:-1]) * random.random(HARMONICS)
-        amplitude = np.sqrt(2.0 * roughness(self.road_class, frequency) * (edges[1:] - edges[:-1]))
+        amplitude = np.sqrt(2.0 * given.psd(frequency) * (edges[1:] - edges[:-1]))
         common = self.coherence(frequency)
         # each side is a shared part and one of its own: G_lr = coherence * G, G_ll = G_rr = G
         weights = amplitude * np.stack((np.sqrt(common), np.sqrt(1.0 - common)))

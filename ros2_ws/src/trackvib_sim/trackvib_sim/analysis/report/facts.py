@@ -5,6 +5,8 @@ from os.path import abspath, commonpath
 from pathlib import PurePath
 
 from ...bags.provenance import parameters_with
+from ...road.iso8608 import CLASSES
+from ...road_sources.road_file import road_in_words
 
 UNKNOWN = "not told"
 
@@ -29,10 +31,10 @@ def headline(report_data):
     """Return the run in one line, by the bag's name where it tells nothing."""
     found, road, law = (
         report_data.analysis,
-        _parameters_with(report_data, "road_class"),
+        _road_parameters(report_data),
         _parameters_with(report_data, "law"),
     )
-    words = [f"class {road['road_class']}"] if road else []
+    words = [road["road"]] if "road" in road else []
     words += [] if isnan(found.speed) else [f"{found.speed:.3g} m/s"]
     words += [f"law {law['law']}"] if law else []
     words += [f"seed {road['seed']}"] if "seed" in road else []
@@ -48,10 +50,18 @@ def _parameters_with(report_data, parameter):
 
 
 def _road(report_data):
-    known = _parameters_with(report_data, "road_class")
-    return ", ".join(
-        f"{word} {known[key]}" for word, key in (("class", "road_class"), ("seed", "seed")) if key in known
-    )
+    known = _road_parameters(report_data)
+    words = [known["road"]] if "road" in known else []
+    return ", ".join([*words, f"seed {known['seed']}"] if "seed" in known else words)
+
+
+def _road_parameters(report_data):
+    """What the road node was told, the road in words; a seed only of a class."""
+    known = _parameters_with(report_data, "level_until")
+    road = known.get("road", known.get("road_class"))  # in bags of before
+    if road is None:
+        return {}
+    return {"road": road_in_words(road), **({"seed": known["seed"]} if road in CLASSES and "seed" in known else {})}
 
 
 def _speed(report_data):

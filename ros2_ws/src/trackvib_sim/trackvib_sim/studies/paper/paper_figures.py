@@ -14,7 +14,7 @@ import numpy as np  # noqa: E402
 
 from ...analysis.plots import COLOURS  # noqa: E402
 from ...analysis.vibration import psd  # noqa: E402
-from ...road.iso8608 import HIGHEST, LOWEST, SPACING, roughness  # noqa: E402
+from ...road.iso8608 import HIGHEST, LOWEST, SPACING, roughness_of  # noqa: E402
 
 AXES = ("longitudinal x (paper X)", "lateral y (paper Z)", "vertical z (paper Y)")
 VERTICAL = 2
@@ -51,8 +51,8 @@ def road_picture(file, title, road, speed):
     history.set_xlim(0.0, ROAD_TIME)
     history.legend()
     # G_d(f) = G_d(n) / v with f = n v
-    line = roughness(road.road_class, band / speed) / speed
-    spectrum.loglog(band, line, color=SECOND, linewidth=1.5, label=f"ISO 8608, class {road.road_class}")
+    line = roughness_of(road.roughness).psd(band / speed) / speed
+    spectrum.loglog(band, line, color=SECOND, linewidth=1.5, label=f"ISO 8608, class {road.roughness}")
     spectrum.fill_between(band, line / CLASS_BOUNDS, line * CLASS_BOUNDS, color="0.85", label="bounds of the class")
     _label(spectrum, "frequency, Hz", "m²/Hz", "power spectral density of the height, third-octave bands")
     spectrum.legend()

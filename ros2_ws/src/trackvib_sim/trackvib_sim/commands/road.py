@@ -1,0 +1,65 @@
+"""`trackvib road`: what a road is like, as a table and a picture, and written as a file."""
+
+from pathlib import Path
+
+import numpy as np
+from rich.table import Table
+
+from ..console import Terminal
+from ..road_sources.crg import write_crg
+from ..road_sources.csv_profile import write_csv_profile
+from ..road_sources.measures import measures
+from ..road_sources.picture import road_picture
+from ..road_sources.road_file import find_road, road_in_words
+from .result_folder import whole_or_none
+
+SHORTEST_LOOK = 10.0  # m
+MOST = 20_000_000  # samples
+SHORTEST = 0.115  # m, of a link: what is shorter, shoes bridge
+
+
+def run_road(text, seed, length, begin, tread, csv, crg, out):
+    """Print what a road is like over a length [m], draw it, and write it as CSV or OpenCRG where asked.
+
+    Raises
+    ------
+    road_file.RoadError, ValueError
+        The road cannot be had, or the length has too many samples.
+    CommandError
+        A file cannot be written.
+    """
+    road = find_road(text, tread, seed)
+    start = road.begins if begin is None else begin
+    length = min(length, max(road.ends - start, SHORTEST_LOOK))
+    first, count = round(start / road.spacing), round(length / road.spacing) + 1
+    if count > MOST:
+        raise ValueError(f"--length {length:g} m are {count} samples of {road.spacing:g} m, accepted are {MOST}")
+    heights = road.heights(first, count)
+    distance = road.spacing * np.arange(first, first + count)
+    paths = [Path(path) for path in (out, csv, crg) if path is not None]
+    with whole_or_none(*paths) as files:
+        written = dict(zip(paths, files, strict=True))
+        road_picture(distance, heights, f"{road_in_words(text)}, {length:g} m", written[Path(out)])
+        if csv is not None:
+            write_csv_profile(written[Path(csv)], distance, heights)
+        if crg is not None:
+            write_crg(written[Path(crg)], road.spacing, heights, tread, float(distance[0]))
+    console = Terminal()
+    console.print(_table(heights, road, f"{road_in_words(text)}, {distance[0]:g} to {distance[-1]:g} m"))
+    if road.spacing < SHORTEST:
+        console.print(
+            f"samples are {road.spacing:g} m apart; what is shorter than a link, shoes bridge", soft_wrap=True
+        )
+    console.print(f"left: {', '.join(map(str, paths))}", soft_wrap=True)
+
+
+def _table(heights, road, title):
+    table = Table("side", title=title, title_justify="left")
+    for name in ("class", "Gd(0.1 1/m), 1e-6 m³", "waviness", "IRI, m/km", "RMS, mm", "lowest, mm", "highest, mm"):
+        table.add_column(name, justify="right")
+    for side, values in zip(("left", "right"), heights, strict=True):
+        found = measures(values, road.spacing)
+        numbers = 1e6 * found.level, found.waviness, found.iri, 1e3 * found.rms, 1e3 * values.min(), 1e3 * values.max()
+        cells = (f"{number:.3g}" if np.isfinite(number) else "-" for number in numbers)
+        table.add_row(side, found.road_class or "-", *cells)
+    return table

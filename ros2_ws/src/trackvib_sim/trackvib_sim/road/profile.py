@@ -1,0 +1,139 @@
+"""A road from measured or computed heights: a `Profile`, and the `ProfileRoad` that is made of it."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+FINEST, COARSEST = 1e-3, 1.0  # m between samples of a road
+MOST = 20_000_000  # samples of a profile
+STEEPEST = 20.0  # m/m, of a step over one sample; more is no ground
+HIGHEST = 1000.0  # m
+_EVEN = 1e-6  # of the spacing: steps that differ by less are even
+
+
+class ProfileError(ValueError):
+    """A profile that cannot be driven on; the message names the item, its value and what is accepted."""
+
+
+class Profile(NamedTuple):
+    """Heights over distance, left and right."""
+
+    distance: np.ndarray  # (n,) m, rising
+    heights: np.ndarray  # (2, n) left, right, m
+
+
+def checked(distance, heights, name):
+    """Return the `Profile` of a distance (n,) and heights (2, n) [m], both checked whole.
+
+    Raises
+    ------
+    ProfileError
+        Something is not finite, out of order, out of range or too steep.
+    """
+    distance, heights = np.asarray(distance, dtype=float), np.asarray(heights, dtype=float)
+    count = len(distance)
+    if not 2 <= count <= MOST:
+        raise ProfileError(f"{name}: {count} samples, accepted are 2 to {MOST}")
+    for what, values in (("distance", distance), ("left height", heights[0]), ("right height", heights[1])):
+        odd = np.flatnonzero(~np.isfinite(values))
+        if odd.size:
+            raise ProfileError(
+                f"{name}: {what} of sample {odd[0] + 1} is {values[odd[0]]}, accepted are finite numbers"
+            )
+    step = np.diff(distance)
+    odd = np.flatnonzero(step <= 0.0)
+    if odd.size:
+        k = odd[0]
+        raise ProfileError(
+            f"{name}: distance goes from {distance[k]:g} to {distance[k + 1]:g} m at sample {k + 2}, must rise"
+        )
+    if step.max() > COARSEST:
+        k = step.argmax()
+        raise ProfileError(
+            f"{name}: a gap of {step[k]:g} m from {distance[k]:g} m on, accepted are up to {COARSEST:g} m"
+        )
+    for side, values in zip(("left", "right"), heights, strict=True):
+        if np.abs(values).max() > HIGHEST:
+            raise ProfileError(f"{name}: {side} is {values[np.abs(values).argmax()]:g} m high, accepted: {HIGHEST:g} m")
+        slope = np.abs(np.diff(values)) / np.maximum(step, FINEST)
+        if slope.max() > STEEPEST:
+            k = slope.argmax()
+            raise ProfileError(
+                f"{name}: {side} rises by {values[k + 1] - values[k]:g} m from {distance[k]:g} m on "
+                f"over {step[k]:g} m, accepted are {STEEPEST:g} m/m; is the unit right?"
+            )
+    return Profile(distance, heights)
+
+
+@dataclass(frozen=True, eq=False)
+class ProfileRoad:
+    """A `Profile` as a road: level before and behind it, at the heights of its ends, or repeated.
+
+    Each side begins at height zero, for a vehicle starts on level ground. Samples of a profile that are evenly spaced,
+    1 mm to 1 m, stay as they are. Others are taken by linear interpolation at the least distance between them, at least
+    1 mm.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import trackvib_sim as tv
+    >>> step = tv.checked_profile(np.arange(0.0, 10.0, 0.1), np.zeros((2, 100)) + (np.arange(100) > 50), "a step")
+    >>> tv.ProfileRoad(step, start=20.0).heights(first=249, count=4)[0]
+    array([0., 0., 1., 1.])
+    """
+
+    profile: Profile
+    start: float = 0.0  # m along the road at which it begins
+    reverse: bool = False
+    repeat: bool = False  # without end, each side's mean slope taken out, so that its end meets its beginning
+
+    @property
+    def begins(self) -> float:
+        """Distance at which it begins [m]."""
+        return self.start
+
+    @property
+    def ends(self) -> float:
+        """Distance at which it ends [m]; infinite where it is repeated."""
+        return np.inf if self.repeat else self.start + self.spacing * (self._samples.shape[1] - 1)
+
+    @cached_property
+    def even(self) -> bool:
+        """Whether the samples are taken as they are."""
+        step = np.diff(self.profile.distance)
+        return bool(step.min() >= FINEST and np.ptp(step) <= _EVEN * step.mean() * len(step))
+
+    @cached_property
+    def spacing(self) -> float:
+        """Distance between the road's samples [m]."""
+        distance = self.profile.distance
+        if self.even:
+            # of one number rather than of a difference, so that a file read back has the spacing it was written with
+            return float(f"{(distance[-1] - distance[0]) / (len(distance) - 1):.9g}")
+        return float(max(np.diff(distance).min(), FINEST))
+
+    @cached_property
+    def _samples(self):
+        distance, heights = self.profile
+        if self.reverse:
+            heights = heights[:, ::-1]
+            distance = distance[-1] - distance[::-1]
+        else:
+            distance = distance - distance[0]
+        if not self.even:
+            grid = self.spacing * np.arange(int(distance[-1] / self.spacing) + 1)
+            heights = np.stack([np.interp(grid, distance, side) for side in heights])
+        heights = heights - heights[:, :1]
+        if self.repeat:
+            heights = heights - np.arange(heights.shape[1]) / (heights.shape[1] - 1) * heights[:, -1:]
+        return np.ascontiguousarray(heights)
+
+    def heights(self, first: int, count: int) -> np.ndarray:
+        """Return the heights (2, count) [m], left and right, of the samples `first` ... `first + count - 1`."""
+        samples = self._samples
+        index = np.arange(first, first + count) - round(self.start / self.spacing)
+        if self.repeat:
+            return samples[:, index % (samples.shape[1] - 1)]
+        return samples[:, np.clip(index, 0, samples.shape[1] - 1)]

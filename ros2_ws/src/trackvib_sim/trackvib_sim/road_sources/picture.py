@@ -1,0 +1,41 @@
+"""A road as a picture: its profile, and its PSD beside the classes of ISO 8608."""
+
+import matplotlib
+
+matplotlib.use("Agg")  # files only: no display is needed
+
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+
+from ..road.iso8608 import CLASSES, roughness_of  # noqa: E402
+from .measures import FITTED, psd, smoothed  # noqa: E402
+
+COLOURS = {"left": "#1f5fa8", "right": "#d1662b"}
+_MOST_DRAWN = 20_000  # samples of a profile
+
+
+def road_picture(distance, heights, title, file):
+    """Draw heights (2, n) [m] over distance (n,) [m] to a PNG file."""
+    spacing = distance[1] - distance[0]
+    figure, (profile, spectrum) = plt.subplots(1, 2, figsize=(13.0, 5.0), width_ratios=(1.4, 1.0), layout="constrained")
+    figure.suptitle(title, fontsize=12)
+    step = max(1, len(distance) // _MOST_DRAWN)
+    frequency = np.geomspace(*FITTED, 50)
+    for each in CLASSES:
+        spectrum.loglog(frequency, roughness_of(each).psd(frequency), color="0.7", linewidth=0.8)
+        spectrum.annotate(each, (frequency[-1], roughness_of(each).psd(frequency[-1])), color="0.4", va="center",
+                          xytext=(3, 0), textcoords="offset points", fontsize=8)  # fmt: skip
+    for values, (side, colour) in zip(heights, COLOURS.items(), strict=True):
+        profile.plot(distance[::step], 1e3 * values[::step], color=colour, linewidth=0.8, label=side)
+        if np.ptp(values) > 0.0:
+            spectrum.loglog(*psd(values, spacing), color=colour, linewidth=0.5, alpha=0.4)
+            spectrum.loglog(*smoothed(values, spacing), "o-", color=colour, markersize=3, label=side)
+    profile.set(xlabel="distance, m", ylabel="height, mm")
+    spectrum.set(xlabel="spatial frequency, 1/m", ylabel="displacement PSD, m³")
+    spectrum.set_title("third octaves; grey: means of the classes of ISO 8608", fontsize=9)
+    for plot in (profile, spectrum):
+        plot.grid(alpha=0.3)
+    if profile.get_legend_handles_labels()[0]:
+        profile.legend()
+    figure.savefig(file, dpi=110, format="png")
+    plt.close(figure)

@@ -1,0 +1,161 @@
+"""Roads by name or file: what `--road` and the road node's `road_file` take.
+
+E                a class of ISO 8608
+profile.csv      a profile (`csv_profile`)
+surface.crg      an OpenCRG surface (`crg`)
+a bag            the road of a recorded run
+road.yaml        any of these with options, or a roughness of one's own, and obstacles on top:
+
+ground: {class: C, seed: 3}                       or {level: 2.0e-4, waviness: 2.3, seed: 3}
+                                                  or {file: profile.csv, start: 10, reverse: true, repeat: true}
+obstacles:
+  - {shape: half_round, at: 30, radius: 0.15, side: left}
+"""
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from ..road.iso8608 import CLASSES, FADE, HIGHEST, LEVEL_UNTIL, LOWEST, SPACING, Iso8608Road, Isotropic, Roughness
+from ..road.obstacles import FINE, LevelRoad, Obstacle, ObstacleRoad
+from ..road.profile import COARSEST, FINEST, ProfileError, ProfileRoad
+from ..yaml_text import YamlTextError, read_text, validated
+from .crg import read_crg
+from .csv_profile import read_csv_profile
+from .recorded import read_recorded_road
+
+MOST_OBSTACLES = 10_000
+DEFAULT_START = 10.0  # m, at which a profile begins: before it the vehicle stands or rolls on level ground
+
+Number = Annotated[float, Field(allow_inf_nan=False)]
+
+
+class RoadError(ValueError):
+    """A road that cannot be had; the message names file, item, value and what is accepted."""
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class RandomGround(_Part):
+    """A random road: a class, or a roughness of one's own."""
+
+    road_class: Annotated[Literal[tuple(CLASSES)] | None, Field(alias="class")] = None
+    level: Annotated[float, Field(gt=0.0, le=1.0, allow_inf_nan=False)] | None = None  # G_d(n0), m^3
+    waviness: Annotated[float, Field(ge=0.5, le=4.0)] = 2.0
+    lowest: Annotated[float, Field(gt=0.0, le=100.0)] = LOWEST  # 1/m
+    highest: Annotated[float, Field(gt=0.0, le=100.0)] = HIGHEST
+    seed: Annotated[int, Field(ge=0, le=10**9)] = 1
+    level_until: Annotated[float, Field(ge=-1000.0, le=1e6)] = LEVEL_UNTIL
+    fade: Annotated[float, Field(ge=0.1, le=1000.0)] = FADE
+
+    @model_validator(mode="after")
+    def _one_of_both(self):
+        if (self.road_class is None) == (self.level is None):
+            raise ValueError("one of class and level must be given")
+        if not self.lowest < self.highest:
+            raise ValueError(f"lowest is {self.lowest:g} 1/m and highest {self.highest:g}, lowest must be below")
+        return self
+
+    def road(self, folder, tread, spacing):
+        """Return the road."""
+        roughness = self.road_class or Roughness(self.level, self.waviness, self.lowest, self.highest)
+        return Iso8608Road(roughness, self.seed, self.level_until, self.fade, Isotropic(tread), spacing or SPACING)
+
+
+class FileGround(_Part):
+    """A profile or surface from a file, or the road of a bag."""
+
+    file: Annotated[str, Field(min_length=1, max_length=1000)]
+    start: Annotated[float, Field(ge=-1e6, le=1e6)] = DEFAULT_START
+    reverse: bool = False
+    repeat: bool = False
+
+    def road(self, folder, tread, spacing):
+        """Return the road."""
+        if spacing is not None:
+            raise RoadError(f"spacing is {spacing:g} m, but {self.file} has its own")
+        return road_from_file(folder / self.file, tread, self.start, self.reverse, self.repeat)
+
+
+class LevelGround(_Part):
+    """Nothing but obstacles."""
+
+    flat: Literal[True]
+
+    def road(self, folder, tread, spacing):
+        """Return the road."""
+        return LevelRoad(spacing or FINE)
+
+
+class RoadFile(_Part):
+    """The whole file."""
+
+    ground: RandomGround | FileGround | LevelGround = LevelGround(flat=True)
+    spacing: Annotated[float, Field(ge=FINEST, le=COARSEST)] | None = None  # m
+    obstacles: Annotated[list[Obstacle], Field(max_length=MOST_OBSTACLES)] = []
+
+
+def find_road(text, tread, seed=1):
+    """Return the road that a text names: a class's letter, or a path.
+
+    Parameters
+    ----------
+    text : str
+    tread : float
+        Distance between the tracks [m].
+    seed : int
+        Of a class.
+
+    Raises
+    ------
+    RoadError
+        It cannot be used.
+    """
+    if text in CLASSES:
+        return Iso8608Road(text, seed, coherence=Isotropic(tread))
+    path = Path(text)
+    if path.suffix.lower() in (".yaml", ".yml") and path.is_file():
+        return _described(path, tread)
+    return road_from_file(path, tread)
+
+
+def road_in_words(text):
+    """Return what a road is called, as `find_road` takes it."""
+    return f"class {text}" if text in CLASSES else f"road {Path(text).name}"
+
+
+def whole_name(text):
+    """Return the same road's name for a process in another folder: of a file its whole path."""
+    return text if text in CLASSES else str(Path(text).absolute())
+
+
+def road_from_file(path, tread, start=DEFAULT_START, reverse=False, repeat=False):
+    """Return the road in a CSV or OpenCRG file, beginning at `start` [m], or that of a bag, which is where it was.
+
+    Raises as `find_road` does.
+    """
+    suffix = path.suffix.lower()
+    try:
+        if suffix == ".csv":
+            return ProfileRoad(read_csv_profile(path), start, reverse, repeat)
+        if suffix == ".crg":
+            return ProfileRoad(read_crg(path, tread), start, reverse, repeat)
+        if path.exists():
+            return read_recorded_road(path)
+    except (ProfileError, OSError) as error:
+        reason = getattr(error, "strerror", None)
+        raise RoadError(f"{path}: {reason}" if reason else str(error)) from None
+    classes = ", ".join(CLASSES)
+    raise RoadError(f"road {str(path)!r} is there not; accepted are a class ({classes}), .csv, .crg, .yaml or a bag")
+
+
+def _described(path, tread):
+    try:
+        told = validated(RoadFile, read_text(path, "road file"), str(path))
+    except YamlTextError as error:
+        raise RoadError(str(error)) from None
+    ground = told.ground.road(path.parent, tread, told.spacing)
+    return ObstacleRoad(ground, tuple(told.obstacles)) if told.obstacles else ground

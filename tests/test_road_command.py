@@ -1,0 +1,78 @@
+"""`trackvib road` and `trackvib run --road`: what is told, drawn and written; roads of files driven by the nodes."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from mcap.reader import make_reader
+from trackvib_sim.bags.reading import read_recording
+from trackvib_sim.road.iso8608 import Iso8608Road
+from trackvib_sim.road_sources.csv_profile import read_csv_profile, write_csv_profile
+from trackvib_sim.road_sources.road_file import find_road
+
+ROAD = """ground: {class: C, seed: 3, level_until: 2, fade: 2}
+obstacles: [{shape: v_ramp, at: 12, height: 0.1, length: 1.0}]
+"""
+
+
+def trackvib(*arguments, code=0, **options):
+    """Run a verb; returns what it printed."""
+    command = [sys.executable, "-m", "trackvib_sim.cli", *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300, **options)
+    assert done.returncode == code, done.stdout + done.stderr
+    return done.stdout + done.stderr
+
+
+@pytest.mark.property
+def test_a_road_is_told_drawn_and_written(tmp_path):
+    """Table and picture; CSV and OpenCRG files that are the same road, to the last bit."""
+    (tmp_path / "mine.yaml").write_text(ROAD)
+    files = ["--csv", tmp_path / "out.csv", "--crg", tmp_path / "out.crg", "--out", tmp_path / "out.png"]
+    told = trackvib("road", tmp_path / "mine.yaml", "--length", 100, "--begin", 0, *files)
+    assert "road mine.yaml, 0 to 100 m" in told and "left" in told and "right" in told
+    assert (tmp_path / "out.png").read_bytes().startswith(b"\x89PNG")
+    heights = find_road(str(tmp_path / "mine.yaml"), 2.8).heights(0, 2001)
+    np.testing.assert_array_equal(read_csv_profile(tmp_path / "out.csv").heights, heights)
+    for name in ("out.csv", "out.crg"):
+        np.testing.assert_array_equal(find_road(str(tmp_path / name), 2.8).heights(200, 2001), heights)
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["nowhere.csv"], "road 'nowhere.csv' is there not"),
+        (["Q"], "accepted are a class (A, B, C, D, E, F, G, H)"),
+        (["C", "--length", "1e5", "--out", "/proc/none/x.png"], "/proc/none"),
+    ],
+)
+def test_bad_roads_end_in_one_line(tmp_path, arguments, words):
+    """Exit code 1, nothing left."""
+    told = trackvib("road", *arguments, code=1, cwd=tmp_path)
+    assert words in told and len(told.strip().splitlines()) == 1 and told.startswith("error: ")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.slow(reason="runs four nodes")
+@pytest.mark.cross_engine
+def test_a_road_of_a_file_is_driven_to_the_same_bits(tmp_path, env):
+    """By CSV, by OpenCRG and by the bag of the first run: the accelerations of all are those of the class itself."""
+    heights, tread = Iso8608Road("C", 3).heights(0, 3001), 2.8
+    write_csv_profile(tmp_path / "c.csv", 0.05 * np.arange(3001), heights)
+    (tmp_path / "c.yaml").write_text("ground: {file: c.csv, start: 0}\n")
+    trackvib("road", "C", "--seed", 3, "--begin", 0, "--length", 150, "--tread", tread,
+             "--crg", tmp_path / "c.crg", "--out", tmp_path / "c.png")  # fmt: skip
+    (tmp_path / "crg.yaml").write_text("ground: {file: c.crg, start: 0}\n")
+    found = {}
+    for name, road in (("class", "C"), ("csv", "c.yaml"), ("crg", "crg.yaml"), ("bag", "class/bag")):
+        trackvib("run", "--road", road, "--seed", 3, "--duration", 4, "--out", name, cwd=tmp_path, env=env)
+        found[name] = read_recording(tmp_path / name / "bag").powertrain.specific_force
+        assert json.loads((tmp_path / name / "summary.json").read_text())["run"]["road"] == road
+    for name in ("csv", "crg", "bag"):
+        assert found[name].tobytes() == found["class"].tobytes(), name
+    assert "identical to the last bit" in trackvib("replay", "csv/bag", "--verify", cwd=tmp_path, env=env)
+    with (next((tmp_path / "csv" / "bag").glob("*.mcap"))).open("rb") as file:
+        told = {record.name: record.metadata for record in make_reader(file).iter_metadata()}
+    assert any(values.get("road", "").endswith("/c.yaml") for values in told.values())
