@@ -135,8 +135,10 @@ def test_dropped_samples(start, start_node, observer):
     simulator.wait_for("heard again, waiting for every answer")
     assert simulator.output.index("holding the last current") < simulator.output.index("heard again")
     controller.wait_for("s apart")
-    assert 0.002 <= float(re.search(r"samples (\S+) s apart", controller.output)[1]) <= 0.2  # the period is 0.001 s
-    observer.wait_until(lambda: int(observer.values.get("silent_periods", 0)) >= 4)
+    # of a period of 0.001 s; how far the run gets until an answer arrives is the machine's affair
+    apart = round(1000.0 * float(re.search(r"samples (\S+) s apart", controller.output)[1]))
+    assert apart >= 2
+    observer.wait_until(lambda: int(observer.values.get("silent_periods", 0)) >= max(4, apart - 1))
     told = observer.values
     periods = round(1000.0 * float(told["time"]))
     # diagnostics are told before the answer to their own sample, or after its silence
