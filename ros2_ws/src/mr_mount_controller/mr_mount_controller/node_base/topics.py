@@ -9,6 +9,10 @@ COIL_CURRENT = "coil_current"
 MOUNT_STATE = "mount_state"
 MOUNT_DESCRIPTION = "mount_description"
 ODOMETRY = "odometry"
+DRIVE_STATE = "drive_state"
+DRIVE_DESCRIPTION = "drive_description"
+DRIVE_COMMAND = "drive_command"
+CMD_VEL = "cmd_vel"
 ROAD_PROFILE = "road_profile"
 VEHICLE_DESCRIPTION = "vehicle_description"
 RECORDED = "recorder/recorded"
@@ -21,6 +25,9 @@ COIL_CURRENT_TYPE = "trackvib_msgs/msg/CoilCurrent"
 MOUNT_STATE_TYPE = "trackvib_msgs/msg/MountState"
 MOUNT_DESCRIPTION_TYPE = "trackvib_msgs/msg/MountDescription"
 ODOMETRY_TYPE = "nav_msgs/msg/Odometry"
+DRIVE_STATE_TYPE = "trackvib_msgs/msg/DriveState"
+DRIVE_DESCRIPTION_TYPE = "std_msgs/msg/String"
+COMMAND_TYPE = "geometry_msgs/msg/TwistStamped"
 ROAD_PROFILE_TYPE = "trackvib_msgs/msg/RoadProfile"
 VEHICLE_DESCRIPTION_TYPE = "std_msgs/msg/String"
 CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
@@ -96,6 +103,28 @@ TOPICS = (
         "The mounts by name, kind and place; how many coils there are.",
     ),
     Topic(ODOMETRY, ODOMETRY_TYPE, "simulator", "100 Hz", "Pose and velocity of the hull."),
+    Topic(
+        DRIVE_STATE,
+        DRIVE_STATE_TYPE,
+        "simulator",
+        "100 Hz",
+        "Distance along the path, wanted speed and curvature, engine speed, gear, speed and torque of the sprockets.",
+    ),
+    Topic(DRIVE_DESCRIPTION, DRIVE_DESCRIPTION_TYPE, "simulator", "once", "The drive file in use; empty if none."),
+    Topic(
+        CMD_VEL,
+        COMMAND_TYPE,
+        "anybody",
+        "any",
+        "Wanted speed (`linear.x`) and yaw rate (`angular.z`), in force from the next control period on.",
+    ),
+    Topic(
+        DRIVE_COMMAND,
+        COMMAND_TYPE,
+        "simulator",
+        "as it takes them",
+        "The command that was taken; its stamp is the simulated time from which on it is in force.",
+    ),
     Topic(
         ROAD_PROFILE,
         ROAD_PROFILE_TYPE,

@@ -22,7 +22,7 @@ from .limits import TooLarge
 from .mcap_records import DAMAGE
 from .mcap_walk import Walk
 from .raw_messages import NO_SCHEMA
-from .recording import Answers, Inertial, LoopCounts, Mounts, Odometry, Recording
+from .recording import Answers, Commands, Drive, Inertial, LoopCounts, Mounts, Odometry, Recording
 
 _SENSOR = Columns(topics.IMU_TYPE, Inertial, {
     "stamp": "header.stamp",
@@ -31,6 +31,8 @@ _SENSOR = Columns(topics.IMU_TYPE, Inertial, {
 })  # fmt: skip
 _NUMBERS = {name: (name, (-1,)) for name in ("current", "stiffness", "damping")}
 _VECTORS = {name: (name, (-1, 3)) for name in ("deflection", "velocity", "force")}
+_DRIVE = ("distance", "offset", "wanted_speed", "curvature", "engine_speed", "gear")
+_SPROCKETS = {name: (name, (2,)) for name in ("sprocket_speed", "sprocket_torque")}
 COLUMNS = {
     topics.CHASSIS_IMU: _SENSOR,
     topics.POWERTRAIN_IMU: _SENSOR,
@@ -43,11 +45,18 @@ COLUMNS = {
     topics.ODOMETRY: Columns(topics.ODOMETRY_TYPE, Odometry, {
         "stamp": "header.stamp", "position": ("pose.pose.position", (3,)), "speed": ("twist.twist.linear.x", ()),
     }),
+    topics.DRIVE_STATE: Columns(topics.DRIVE_STATE_TYPE, Drive, {
+        "stamp": "header.stamp", **{name: (name, ()) for name in _DRIVE}, **_SPROCKETS,
+    }),
+    topics.DRIVE_COMMAND: Columns(topics.COMMAND_TYPE, Commands, {
+        "stamp": "header.stamp", "speed": ("twist.linear.x", ()), "yaw_rate": ("twist.angular.z", ()),
+    }),
 }  # fmt: skip
 _NEEDED = (topics.CHASSIS_IMU, topics.POWERTRAIN_IMU)
 _RARE = {  # read message by message
     topics.DIAGNOSTICS.removeprefix("/"): topics.DIAGNOSTICS_TYPE,
     topics.VEHICLE_DESCRIPTION: topics.VEHICLE_DESCRIPTION_TYPE,
+    topics.DRIVE_DESCRIPTION: topics.DRIVE_DESCRIPTION_TYPE,
     topics.MOUNT_DESCRIPTION: topics.MOUNT_DESCRIPTION_TYPE,
     topics.ROAD_PROFILE: topics.ROAD_PROFILE_TYPE,
 }
@@ -107,7 +116,7 @@ class _Reading:
     """What has been read of a bag."""
 
     def __init__(self):
-        self._columns, self._further, self._roads, self._vehicles, self._mountings = {}, {}, {}, {}, {}  # by topic
+        self._columns, self._further, self._roads, self._texts, self._mountings = {}, {}, {}, {}, {}  # by topic
         self._loop_counts, self._diagnostics = [], {}
         self._provenance, self._counts, self._complete = {}, Counter(), True
 
@@ -155,8 +164,8 @@ class _Reading:
             return
         for first, length in zip(start.tolist(), size.tolist(), strict=True):
             message = definition.message(data[first : first + length].data)
-            if end == topics.VEHICLE_DESCRIPTION:
-                self._vehicles[topic] = message.data
+            if end in (topics.VEHICLE_DESCRIPTION, topics.DRIVE_DESCRIPTION):
+                self._texts[topic] = message.data
             elif end == topics.MOUNT_DESCRIPTION:
                 self._mountings[topic] = described(message)
             elif end == topics.ROAD_PROFILE:
@@ -177,7 +186,7 @@ class _Reading:
     def recording(self, path):
         """Return it all."""
         found = {end: [] for end in _TYPES}
-        for topic in self._columns | self._roads | self._vehicles | self._mountings:
+        for topic in self._columns | self._roads | self._texts | self._mountings:
             found[_end_of(topic)].append(topic)
         missing = [end for end in _NEEDED if not found[end]]
         if missing:
@@ -211,8 +220,11 @@ class _Reading:
             mounts=columns.get(topics.MOUNT_STATE),
             answers=columns.get(topics.COIL_CURRENT),
             odometry=columns.get(topics.ODOMETRY),
+            drive=columns.get(topics.DRIVE_STATE),
+            commands=columns.get(topics.DRIVE_COMMAND),
             road=self._roads.get(chosen.get(topics.ROAD_PROFILE), []),
-            vehicle=self._vehicles.get(chosen.get(topics.VEHICLE_DESCRIPTION)),
+            vehicle=self._texts.get(chosen.get(topics.VEHICLE_DESCRIPTION)),
+            drive_file=self._texts.get(chosen.get(topics.DRIVE_DESCRIPTION)),
             loop_counts=LoopCounts(*counts.T),
             diagnostics=self._diagnostics,
             provenance=self._provenance,

@@ -50,6 +50,28 @@ class Odometry(NamedTuple):
     speed: np.ndarray  # (k,) forward, in the hull's axes, m/s
 
 
+class Drive(NamedTuple):
+    """How the vehicle was driven, as `DriveState` has it."""
+
+    stamp: np.ndarray  # (k,) ns
+    distance: np.ndarray  # (k,) along the path, m
+    offset: np.ndarray  # (k,) from it to the left, m
+    wanted_speed: np.ndarray  # (k,) m/s
+    curvature: np.ndarray  # (k,) of the path, to the left, 1/m
+    engine_speed: np.ndarray  # (k,) r/min
+    gear: np.ndarray  # (k,) 0 where the engine turned at a speed of its own
+    sprocket_speed: np.ndarray  # (k, 2) left, right, rad/s
+    sprocket_torque: np.ndarray  # (k, 2) N m
+
+
+class Commands(NamedTuple):
+    """What the simulator was told on `cmd_vel`, in the order in which it took it."""
+
+    stamp: np.ndarray  # (c,) simulated time from which on it was in force, ns
+    speed: np.ndarray  # (c,) m/s
+    yaw_rate: np.ndarray  # (c,) rad/s
+
+
 class LoopCounts(NamedTuple):
     """What the simulator counted in its loop, in the order of its time."""
 
@@ -79,8 +101,11 @@ class Recording(NamedTuple):
     mounts: Mounts | None
     answers: Answers | None
     odometry: Odometry | None
+    drive: Drive | None
+    commands: Commands | None
     road: list  # of patches (start, spacing, left, right), m
     vehicle: str | None  # text of the vehicle file
+    drive_file: str | None  # text of the drive file, empty where there was none
     loop_counts: LoopCounts
     diagnostics: dict  # last values of the simulator, as text
     provenance: dict  # metadata records of the bag: name -> dict of text
@@ -96,6 +121,7 @@ class Recording(NamedTuple):
             topics.MOUNT_STATE: self.mounts,
             topics.COIL_CURRENT: self.answers,
             topics.ODOMETRY: self.odometry,
+            topics.DRIVE_STATE: self.drive,
             **{topics.imu_topic(name): sensor for name, sensor in self.sensors.items()},
         }
         return {end: columns for end, columns in parts.items() if columns is not None}
