@@ -31,7 +31,7 @@ def progress(simulation, lockstep):
         "time": simulation.time / NANO,
         **{f"current_{name}": current for name, current in coils},
         **lockstep.counts,
-        **dict(zip(DRIVE, simulation.state.driven.tolist(), strict=True)),
+        **dict(zip(DRIVE, simulation.state.drive.driving.done.tolist(), strict=True)),
         **{
             f"mount_{part}_J": energy
             for part, energy in mount_energy_account(simulation.state.mount_energy)._asdict().items()

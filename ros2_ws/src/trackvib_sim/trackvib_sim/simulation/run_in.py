@@ -4,7 +4,9 @@ import numpy as np
 
 from ..road.store import Road
 from ..vehicle.coil import settle_coils
-from ..vehicle.engine import angle_before
+from ..vehicle.drive.drive import begin_drive
+from ..vehicle.drive.engine import CYCLE
+from ..vehicle.drive.schedule import Schedule
 from ..vehicle.mount_energy import start_mount_energy
 from ..vehicle.mount_law import lay_fields
 from ..vehicle.system import new_state, new_work
@@ -35,9 +37,12 @@ def run_in(vehicle, system, settings):
     state, work = new_state(system), new_work(system)
     settle_coils(system.coil, state.coils, settings.passive_current)
     lay_fields(system.mounts, state.coils.field, state.fields)
-    speed, run_up = settings.operation.speed, settings.operation.run_up
-    if run_up:
-        state.crank_angle[0] = angle_before(system.engine, DURATION + run_up.begin)
+    schedule = system.drive.schedule
+    speed = float(schedule.speed[0])
+    if len(schedule.at) > 1:  # whatever is wanted from then on, the crank's angle is zero at the start of the run
+        state.drive.crank.angle[0] = -DURATION * state.drive.crank.speed[0] % CYCLE
+    system = system._replace(drive=system.drive._replace(schedule=_first(schedule)))
+    state = state._replace(drive=begin_drive(system.drive, state.drive))
     assemble_tracks(vehicle, system, state, speed, settings.operation.track_phase)
     way = 1.5 * DURATION * speed
     samples = int((2.0 * _AROUND + abs(way)) / _SPACING) + 2
@@ -55,8 +60,13 @@ def run_in(vehicle, system, settings):
             f"the vehicle cannot roll at {speed:g} m/s on a level road: {REASONS[status]}; check the vehicle file"
         )
     start_mount_energy(state.mount_energy)
-    state.driven[:] = 0.0
-    return _back_at_start(state)
+    return _back_at_start(state, system.drive._replace(schedule=schedule))
+
+
+def _first(schedule):
+    """Return a schedule of what is wanted first, straight on."""
+    begin = {name: values[:1] for name, values in schedule._asdict().items() if name != "by_distance"}
+    return Schedule(False, **begin | {"curvature": np.zeros(1)})
 
 
 def calmed(system):
@@ -69,12 +79,12 @@ def calmed(system):
     return system._replace(tracks=tracks._replace(chain=chain))
 
 
-def _back_at_start(state):
-    """Shift everything by the hull's x and y."""
+def _back_at_start(state, drive):
+    """Shift everything by the hull's x and y, and begin time, path and what the drive has done."""
     nodes = state.tracks.nodes.reshape(2, -1, STRIDE)
     for axis in range(2):
         way = state.tree.position[0, axis]
         nodes[:, NodeOffset.PLACE + axis] -= way
         state.tree.position[1:, axis] -= way
         state.tree.position[0, axis] = 0.0
-    return state
+    return state._replace(drive=begin_drive(drive, state.drive))

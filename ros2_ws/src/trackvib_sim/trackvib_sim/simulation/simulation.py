@@ -8,6 +8,7 @@ import numpy as np
 
 from ..numerics.units import NANO
 from ..road.store import RoadStore
+from ..vehicle.drive.command import curvature_of
 from ..vehicle.mounting import mounting_of
 from ..vehicle.parameters import Vehicle
 from ..vehicle.sensors import sensors_of
@@ -82,6 +83,7 @@ class Simulation:
         self.mounting = mounting_of(vehicle)
         self.points = points_of(self.sensors, probes, body_rows(vehicle, self.system.tree), settings.rates)
         self._reach = max(abs(vehicle.idlers.x), abs(vehicle.sprockets.x)) + _MARGIN
+        self._fastest = max(self.system.drive.schedule.speed, key=abs)
         self.reset()
 
     def reset(self):
@@ -105,11 +107,24 @@ class Simulation:
     @property
     def distance(self) -> float:
         """Distance of the hull's origin along the road [m]."""
-        return float(self.state.tree.position[0, 0])
+        return float(self.state.drive.path.distance[0])
 
     def road_is_enough(self) -> bool:
         """Return whether the next period can be done with the road at hand."""
         return self._road_around(1) is not None
+
+    def command(self, speed: float, yaw_rate: float):
+        """Want another speed [m/s] and yaw rate [rad/s, to the left] from the next period on, whatever the schedule.
+
+        The path ahead of the vehicle's front takes the curvature yaw_rate / speed.
+
+        Raises
+        ------
+        ValueError
+            They are none that a tracked vehicle can be steered by.
+        """
+        self.state.drive.wanted.command[:] = speed, curvature_of(speed, yaw_rate)
+        self.state.drive.wanted.commanded[0] = True
 
     def advance(self, demanded):
         """Do one control period with the demanded current of each coil [A].
@@ -161,6 +176,6 @@ class Simulation:
             raise RunFailed(f"{REASONS[status]} after t = {self.time / NANO:.3f} s")
 
     def _road_around(self, periods):
-        way = 1.5 * periods * self.settings.operation.speed / self.settings.rates.control
+        way = 1.5 * periods * self._fastest / self.settings.rates.control
         rear, front = self.distance - self._reach, self.distance + self._reach
         return self.road.around(rear + min(way, 0.0), front + max(way, 0.0))

@@ -13,8 +13,10 @@ from ..rui.sweeps.integrator import integrate
 from ..rui.sweeps.kinematics import MotionOffset, body_axes, motion_vector, rotation, update_motion
 from ..rui.sweeps.riccati import solve_accelerations
 from ..vehicle.coil import drive_coils
-from ..vehicle.driver import add_driver
-from ..vehicle.engine import add_engine, imposed_displacement, turn_crank
+from ..vehicle.drive.drive import end_drive_step
+from ..vehicle.drive.driver import add_driver
+from ..vehicle.drive.engine import add_engine, imposed_displacement
+from ..vehicle.drive.path import LEFT_BEHIND, path_is_left
 from ..vehicle.hinge_springs import add_hinge_springs
 from ..vehicle.mount_energy import update_mount_energy
 from ..vehicle.mounts import MountSample, add_mounts, new_mount_sample, observe_mounts
@@ -32,6 +34,7 @@ class Status(IntEnum):
     BELOW_ROAD = 3
     AIRBORNE = 4
     SKIPPED = 5
+    LEFT_PATH = 6
 
 
 LEAST_UPRIGHT = 0.36  # cosine of the hull's tilt; 1.2 rad is beyond what the suspension and the driver are made for
@@ -42,6 +45,7 @@ REASONS = {
     Status.OVERTURNED: "the vehicle has overturned",
     Status.BELOW_ROAD: "a road wheel lies below the road",
     Status.SKIPPED: "a track has skipped a tooth of its sprocket",
+    Status.LEFT_PATH: f"the vehicle has left its path by more than {LEFT_BEHIND:g} m, or gone back on it too far",
     Status.AIRBORNE: f"no shoe has touched the ground for {LONGEST_FLIGHT:g} s",
 }
 
@@ -76,8 +80,8 @@ def add_forces(system, state, road, work):
     add_suspension(system.suspension, state.tree, work.torques)
     update_motion(tree, state.tree, motion)
     open_cuts(tree, motion, work.torques, cuts)
-    add_tracks(system.tracks, state.tracks, state.tree, road, motion, cuts, work.tracks, system.dt)
-    displacement, displacement_rate = imposed_displacement(system.engine, state.crank_angle[0])
+    add_tracks(system.tracks, state.tracks, state.tree, road, state.drive.path, motion, cuts, work.tracks, system.dt)
+    displacement, displacement_rate = imposed_displacement(system.drive.engine, state.drive.crank)
     apply_elastic_hinges(tree, motion, cuts)
     update_mount_energy(
         system.mounts,
@@ -90,8 +94,8 @@ def add_forces(system, state, road, work):
         state.mount_energy,
     )
     add_mounts(system.mounts, state.fields, motion, cuts, state.coils.field, displacement, displacement_rate)
-    add_engine(system.engine, state.crank_angle[0], motion, cuts)
-    add_driver(system.driver, motion, cuts, state.tree.hinge_rate, state.speed_integral, state.driven, system.dt)
+    add_engine(system.drive.engine, state.drive.crank, motion, cuts)
+    add_driver(system.drive, state.drive, state.tree.hinge_rate, motion, cuts, system.dt)
 
 
 @inlined
@@ -103,16 +107,18 @@ def end_step(system, state, road, work, points, sample, step):
     measure(work, points, sample, step)
     integrate(system.tree, state.tree, work.response, system.dt)
     move_tracks(system.tracks, state.tracks, work.motion, system.tree.gravity, work.tracks, system.dt)
-    state.crank_angle[0] = turn_crank(system.engine, state.crank_angle[0], system.dt)
+    end_drive_step(system.drive, state.drive, state.tree.position[0, 0], state.tree.position[0, 1], system.dt)
     # the hull's accelerations act on its speed, every other one on that of its hinge
     total = state.tree.velocity.sum() + state.tree.angular_velocity.sum() + state.tree.hinge_rate.sum()
     # not np.isfinite: it compiles to total - total == 0, which reassociation turns into "true"
     if not abs(total) < np.inf:
         return Status.NOT_FINITE
-    if rotation(work.motion, system.driver.hull)[8] < LEAST_UPRIGHT:
+    if rotation(work.motion, system.drive.driver.hull)[8] < LEAST_UPRIGHT:
         return Status.OVERTURNED
-    if wheel_below_road(system.tracks, road, work.motion):
+    if wheel_below_road(system.tracks, road, state.drive.path, work.motion):
         return Status.BELOW_ROAD
+    if path_is_left(state.drive.path, system.drive.reach):
+        return Status.LEFT_PATH
     state.flight[0] = 0.0 if work.tracks.touching[0] > 0.0 else state.flight[0] + system.dt
     if state.flight[0] > LONGEST_FLIGHT:
         return Status.AIRBORNE
@@ -180,12 +186,12 @@ def advance_many(system, state, road, demanded, steps, work, points, sample, for
 def observe(system, state, motion, sample):
     """Fill what a sample says about the end of the period."""
     update_motion(system.tree, state.tree, motion)
-    hull = system.driver.hull
+    hull = system.drive.driver.hull
     store3(sample.hull_velocity, 0, body_axes(motion, hull, motion_vector(motion, MotionOffset.VELOCITY, hull)))
     store3(
         sample.hull_angular_velocity,
         0,
         body_axes(motion, hull, motion_vector(motion, MotionOffset.ANGULAR_VELOCITY, hull)),
     )
-    displacement, displacement_rate = imposed_displacement(system.engine, state.crank_angle[0])
+    displacement, displacement_rate = imposed_displacement(system.drive.engine, state.drive.crank)
     observe_mounts(system.mounts, state.fields, motion, state.coils, displacement, displacement_rate, sample.mounts)

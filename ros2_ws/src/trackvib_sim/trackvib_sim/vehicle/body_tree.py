@@ -38,6 +38,12 @@ def build_body_table(vehicle):
     return [hull, *superstructure, *_running_gear(v, 2 * above + 4), powertrain]
 
 
+def whole_mass(vehicle):
+    """Return the mass of a vehicle with its tracks [kg]."""
+    tracks = vehicle.tracks
+    return sum(body.mass for body in build_body_table(vehicle)) + sum(tracks.links) * tracks.shoe_mass
+
+
 def bodies_on_hinges(vehicle):
     """Return the sections of all bodies between hull and running gear by name, the powertrain's last."""
     return {**vehicle.bodies, POWERTRAIN: vehicle.powertrain}

@@ -23,7 +23,7 @@ from ..rui.sweeps.cells import get3, get6
 from ..rui.sweeps.elastic import elastic_energy
 from ..rui.sweeps.kinematics import MotionOffset, motion_vector, rotation, update_motion
 from ..rui.sweeps.tree import BodyOffset
-from .driver import add_driver
+from .drive.driver import add_driver
 from .engine import add_engine, imposed_displacement
 from .hinge_springs import add_hinge_springs
 from .mount_law import mount_force, mount_stored_energy
@@ -132,13 +132,13 @@ def _evaluate(system, state, road, work, account):
     _add_elastic_hinges(tree, motion, account)
     _add_suspension(system.suspension, state.tree, work.torques, account)
     cuts.cells[:] = 0.0
-    add_engine(system.engine, state.crank_angle[0], motion, cuts)
+    add_engine(system.drive.engine, state.drive.crank, motion, cuts)
     account.given[Source.ENGINE] = _power(motion, cuts)
     _add_mounts(system, state, motion, account)
     cuts.cells[:] = 0.0
-    add_driver(system.driver, motion, cuts, state.tree.hinge_rate, state.speed_integral, state.driven, system.dt)
+    add_driver(system.drive, state.drive, state.tree.hinge_rate, motion, cuts, system.dt)
     account.given[Source.DRIVER] = _power(motion, cuts)
-    add_tracks(system.tracks, state.tracks, state.tree, road, motion, cuts, work.tracks, system.dt)
+    add_tracks(system.tracks, state.tracks, state.tree, road, state.drive.path, motion, cuts, work.tracks, system.dt)
     for part in range(TRACK_PARTS):
         account.stored[part] += work.tracks.stored[part]
         account.dissipation[part] += work.tracks.dissipation[part]
@@ -216,7 +216,7 @@ def _add_suspension(suspension, state, torques, account):
 def _add_mounts(system, state, motion, account):
     """Where the engine imposes a displacement across a mount it does work on the mount's force."""
     mounts = system.mounts
-    imposed, imposed_rate = imposed_displacement(system.engine, state.crank_angle[0])
+    imposed, imposed_rate = imposed_displacement(system.drive.engine, state.drive.crank)
     for index in range(mounts.body.size):
         current = mount_current(mounts, index, state.coils.field)
         _, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)

@@ -1,5 +1,6 @@
 """The vehicle's parameters: what a vehicle file must hold."""
 
+from itertools import pairwise
 from typing import Annotated, Literal
 
 from mr_mount_controller.mounting import MOST_COILS, MOST_MOUNTS
@@ -27,6 +28,7 @@ from .upgrade import FORMAT, upgraded
 POWERTRAIN = "powertrain"
 CHASSIS = "chassis"
 MOST_BODIES = 30
+MOST_GEARS = 20
 MOST_SENSORS = 32
 
 
@@ -53,8 +55,42 @@ class EngineParameters(Section):
         return self
 
 
+class DrivelineParameters(Section):
+    """Gears between the crankshaft and the sprockets, the engine's torque at full load, and the shafts."""
+
+    ratios: vector("-", most=MOST_GEARS, gt=0.0)
+    shift_up: scalar("r/min", gt=0.0)
+    shift_down: scalar("r/min", gt=0.0)
+    curve_speed: vector("r/min", most=100, ge=0.0)
+    curve_torque: vector("N m", most=100, ge=0.0)
+    efficiency: scalar("-", gt=0.0, le=1.0)
+    inertia: scalar("kg m^2", gt=0.0)
+    stiffness: scalar("N m/rad", gt=0.0)
+    damping: Gain("N m s/rad")
+    ripple: vector("N m", ge=0.0)
+
+    @model_validator(mode="after")
+    def _gears_and_curve(self):
+        if any(low <= high for low, high in pairwise(self.ratios)):
+            raise ValueError(f"ratios are {self.ratios}, each must be below the one before")
+        if len(self.curve_speed) < 2 or len(self.curve_speed) != len(self.curve_torque):
+            raise ValueError(
+                f"curve_speed has {len(self.curve_speed)} numbers and curve_torque {len(self.curve_torque)}, must be "
+                "as many and at least 2"
+            )
+        if any(high <= low for low, high in pairwise(self.curve_speed)):
+            raise ValueError(f"curve_speed is {self.curve_speed}, each must be above the one before")
+        for low, high in pairwise(self.ratios):
+            if self.shift_down >= self.shift_up * high / low:
+                raise ValueError(
+                    f"shift_down is {self.shift_down:g} r/min, must be below {self.shift_up * high / low:g} r/min, to "
+                    f"which shifting up from ratio {low:g} to {high:g} leads"
+                )
+        return self
+
+
 class DriverParameters(Section):
-    """Keeps speed and lane."""
+    """Keeps speed and path."""
 
     speed_gain: Gain("N s/m")
     speed_integral_gain: Gain("N/m")
@@ -62,6 +98,7 @@ class DriverParameters(Section):
     heading_gain: Gain("N m/rad")
     heading_damping: Gain("N m s/rad")
     lane_gain: Gain("rad/m")
+    acceleration_limit: scalar("m/s^2", gt=0.0) | None = None
 
 
 class SensorParameters(Section):
@@ -120,6 +157,7 @@ class Vehicle(Section):
     tracks: TracksParameters
     ground: GroundParameters
     driver: DriverParameters
+    driveline: DrivelineParameters | None = None
 
     @model_validator(mode="before")
     @classmethod
@@ -162,6 +200,15 @@ class Vehicle(Section):
             for sensor in (CHASSIS, POWERTRAIN):
                 if sensor not in self.sensors:
                     raise ValueError(f"sensors.{sensor}: must be given, for no mount carries the powertrain")
+        return self
+
+    @model_validator(mode="after")
+    def _driveline_fits_engine(self):
+        if self.driveline is not None and len(self.driveline.ripple) != len(self.engine.orders):
+            raise ValueError(
+                f"driveline.ripple has {len(self.driveline.ripple)} numbers, must have one for each of the engine's "
+                f"{len(self.engine.orders)} orders"
+            )
         return self
 
     @model_validator(mode="after")

@@ -13,8 +13,8 @@ from ..rui.sweeps.riccati import Response, new_response
 from ..rui.sweeps.tree import Tree, build_tree, new_rows, rest_lanes
 from .body_tree import GRAVITY, build_body_table, sprung_bodies
 from .coil import Coil, CoilState, build_coil, new_coil_state
-from .driver import Driver, build_driver
-from .engine import Engine, RunUp, build_engine
+from .drive.drive import Drive, DriveState, build_drive, new_drive_state
+from .drive.schedule import Schedule, constant_schedule
 from .hinge_springs import HingeSprings, build_hinge_springs
 from .mount_energy import MountEnergyState, new_mount_energy_state
 from .mount_law import FieldState, new_field_state
@@ -36,11 +36,17 @@ class Operation:
     0.0
     """
 
-    speed: float  # m/s
-    engine_speed: float  # r/min, 0 for a standing engine
+    speed: float  # m/s, without effect where there is a schedule
+    engine_speed: float  # r/min, 0 for a standing engine; likewise, and with gears
     imposed_displacement: bool  # the paper's engine excitation instead of forces and moments
     track_phase: float = 0.0  # part of a pitch by which the right track lies ahead of the left one
-    run_up: RunUp | None = None  # of the engine
+    schedule: Schedule | None = None  # of speed, path and engine speed
+    gears: bool = False  # whether the engine's speed follows the vehicle's
+
+    @property
+    def plan(self) -> Schedule:
+        """What is wanted over the run."""
+        return self.schedule or constant_schedule(self.speed, self.engine_speed)
 
 
 class System(NamedTuple):
@@ -52,8 +58,7 @@ class System(NamedTuple):
     suspension: Suspension
     mounts: Mounts
     coil: Coil
-    engine: Engine
-    driver: Driver
+    drive: Drive
     supports: Supports
     tracks: Tracks
 
@@ -65,9 +70,7 @@ class State(NamedTuple):
     tracks: TrackState
     coils: CoilState
     fields: FieldState
-    crank_angle: np.ndarray  # (1,) rad, see engine.turn_crank
-    speed_integral: np.ndarray  # (1,) N
-    driven: np.ndarray  # (2,) work of the driver on the sprockets, J, and the way that it went for, m
+    drive: DriveState
     flight: np.ndarray  # (1,) time since a shoe last touched the ground, s
     mount_energy: MountEnergyState
 
@@ -90,7 +93,7 @@ def build_system(vehicle, operation, dt):
     tracks.layout.TrackDoesNotFit
         The links do not close round the running gear.
     ValueError
-        The coils' delay is no whole number of steps.
+        The coils' delay is no whole number of steps, or gears are asked for that the vehicle does not have.
     """
     table = build_body_table(vehicle)
     tree = build_tree(table, gravity=(0.0, 0.0, -GRAVITY))
@@ -107,8 +110,7 @@ def build_system(vehicle, operation, dt):
         suspension=build_suspension(vehicle, rows, load),
         mounts=build_mounts(vehicle, rows, loads_at_rest(vehicle)),
         coil=build_coil(vehicle, dt),
-        engine=build_engine(vehicle, rows, operation.engine_speed, operation.imposed_displacement, operation.run_up),
-        driver=build_driver(vehicle, rows, operation.speed),
+        drive=build_drive(vehicle, rows, operation.plan, operation.imposed_displacement, operation.gears),
         supports=standing,
         tracks=running_tracks,
     )
@@ -126,9 +128,7 @@ def new_state(system):
         tracks=new_track_state(system.tracks),
         coils=new_coil_state(system.coil, system.mounts.coils),
         fields=new_field_state(len(system.mounts.body)),
-        crank_angle=np.zeros(1),
-        speed_integral=np.zeros(1),
-        driven=np.zeros(2),
+        drive=new_drive_state(system.drive),
         flight=np.zeros(1),
         mount_energy=new_mount_energy_state(len(system.mounts.body)),
     )

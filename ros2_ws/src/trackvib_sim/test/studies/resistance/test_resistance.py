@@ -8,7 +8,8 @@ from matplotlib.image import imread
 from trackvib_sim.simulation.open_loop import run_open_loop
 from trackvib_sim.studies.resistance.case import ResistanceCase, ResistanceResult, pull, roll
 from trackvib_sim.studies.resistance.picture import resistance_picture
-from trackvib_sim.studies.resistance.table import FORMULAS, SINKS, force, mass_of, published, table_csv
+from trackvib_sim.studies.resistance.table import FORMULAS, SINKS, force, published, table_csv
+from trackvib_sim.vehicle.body_tree import whole_mass
 
 FAST = ResistanceCase(12.0)
 
@@ -52,7 +53,7 @@ def test_dry_bearings_take_force_and_oil_does_not(vehicle, rolled, changed):
 def test_formulas_by_hand(vehicle):
     """At 10 m/s, 36 km/h: 330 and 223 N a tonne; without its shoes the vehicle has 38.02 t."""
     shoes = 240.0 * vehicle.tracks.shoe_mass
-    assert mass_of(vehicle) == pytest.approx(38_020.0 + shoes, rel=1e-3)
+    assert whole_mass(vehicle) == pytest.approx(38_020.0 + shoes, rel=1e-3)
     assert list(published(1000.0, 10.0).values()) == pytest.approx([330.0, 223.0])
 
 

@@ -12,11 +12,12 @@ from distributed import Client
 
 from ...simulation.run_in import CannotRoll
 from ...simulation.simulation import RunFailed
+from ...vehicle.body_tree import whole_mass
 from ...vehicle.vehicle_file import parse_vehicle
 from ..case import Result, drive
 from ..paper.paper_table import error_factor
 from ..resistance.case import ResistanceCase, pull
-from ..resistance.table import mass_of, published_range
+from ..resistance.table import published_range
 from ..workers import finished
 from .history import Candidate
 from .objective import objective, ratios
@@ -72,7 +73,7 @@ def attempt(vehicle_text, case, duration):
     try:
         vehicle = _vehicle(vehicle_text)
         if isinstance(case, ResistanceCase):
-            return pull(vehicle, case) / np.array(published_range(mass_of(vehicle), case.speed))
+            return pull(vehicle, case) / np.array(published_range(whole_mass(vehicle), case.speed))
         return drive(vehicle, case, duration)
     except (ValueError, CannotRoll, RunFailed) as error:
         failed = np.full(2, np.nan) if isinstance(case, ResistanceCase) else Result(f"failed: {error}", {}, None)

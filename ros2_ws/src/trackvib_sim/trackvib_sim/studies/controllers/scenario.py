@@ -10,14 +10,14 @@ from scipy import signal
 from ...analysis.iso2631 import weighted
 from ...analysis.settling import SHORTEST_SETTLING, VEHICLE_BEHIND, settling_time
 from ...analysis.vibration import band_limited, rms
-from ...numerics.units import NANO
+from ...numerics.units import NANO, RPM
 from ...road.bump import Bump
 from ...road.iso8608 import FADE, LEVEL_UNTIL
 from ...simulation.closed_loop import run_closed_loop
 from ...simulation.run_in import CannotRoll
 from ...simulation.settings import RunSettings
 from ...simulation.simulation import Probe, RunFailed, Simulation
-from ...vehicle.engine import RunUp
+from ...vehicle.drive.schedule import Schedule
 from ...vehicle.mount_energy import mount_energy_account
 from ...vehicle.sensors import sensors_of
 from ...vehicle.system import Operation
@@ -37,12 +37,12 @@ class Scenario(NamedTuple):
 
     title: str
     speed: float  # m/s
-    engine_speed: float  # r/min, before any run-up
+    engine_speed: float  # r/min, where there is no schedule
     settling: float
     measuring: float
     road: object  # function of vehicle and seed
     varies: bool = True  # whether seed and track phase matter
-    run_up: RunUp | None = None
+    schedule: Schedule | None = None
 
 
 def _rough(road_class, speed):
@@ -59,11 +59,12 @@ def _bump(speed):
 
 
 def _run_up():
-    ramp = RunUp(CALMING, RAMP, HIGHEST)
     title = f"standing, engine {IDLE:g}-{HIGHEST:g} r/min"
     level = Bump(0.0, LENGTH, 0.0)
     duration = (HIGHEST - IDLE) / RAMP
-    return Scenario(title, 0.0, IDLE, CALMING, duration, lambda *_: level, varies=False, run_up=ramp)
+    at, engine_speed = np.array([CALMING, CALMING + duration]), RPM * np.array([IDLE, HIGHEST])
+    faster = Schedule(False, at, np.zeros(2), np.zeros(2), engine_speed)
+    return Scenario(title, 0.0, IDLE, CALMING, duration, lambda *_: level, varies=False, schedule=faster)
 
 
 SCENARIOS = {"e10": _rough("E", 10.0), "c20": _rough("C", 20.0), "run_up": _run_up(), "bump": _bump(5.0)}
@@ -104,7 +105,7 @@ QUANTITIES = {  # name: what it is, unit
 def control(vehicle, case):
     """Run a case and return its `ControlResult`; a run that leaves the valid range is a result, too."""
     scenario = SCENARIOS[case.scenario]
-    operation = Operation(scenario.speed, scenario.engine_speed, False, case.track_phase, scenario.run_up)
+    operation = Operation(scenario.speed, scenario.engine_speed, False, case.track_phase, scenario.schedule)
     period = RATES.period / NANO
     values = {"current": case.current} if case.law == PASSIVE else {}
     settled, measured = (round(time * RATES.control) for time in (scenario.settling, scenario.measuring))

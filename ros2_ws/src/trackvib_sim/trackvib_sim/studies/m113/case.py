@@ -82,7 +82,7 @@ def _drive(simulation, road, reference):
         begun.append(periods)
         distances.append(simulation.distance)
         pushed = tensioner.preload - tensioner.stiffness * state.tracks.tensioner.travel
-        forces.append([*np.abs(pushed), state.speed_integral[0]])
+        forces.append([*np.abs(pushed), state.drive.driving.speed_integral[0]])
 
     run = run_open_loop(simulation, road, before + len(reference.vertical), look)
     place = np.interp(np.arange(len(run.time)), begun, distances)

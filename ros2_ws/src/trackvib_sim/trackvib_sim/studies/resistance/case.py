@@ -56,7 +56,7 @@ def pull(vehicle, case):
 
     def look(done):
         if done > settled:
-            forces.append(float(simulation.state.speed_integral[0]))
+            forces.append(float(simulation.state.drive.driving.speed_integral[0]))
 
     run_open_loop(simulation, LEVEL, end, look)
     return float(np.mean(forces))

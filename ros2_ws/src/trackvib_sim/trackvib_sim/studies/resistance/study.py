@@ -7,14 +7,14 @@ from rich.table import Table
 from ...console import Terminal
 from ...data import find_vehicle
 from ...new_files import new_file
-from ...vehicle.body_tree import GRAVITY
+from ...vehicle.body_tree import GRAVITY, whole_mass
 from ...vehicle.vehicle_file import read_vehicle
 from ..case import GOOD
 from ..case_store import CaseStore
 from ..run_missing import run_shown
 from .case import ResistanceCase, ResistanceResult, roll
 from .picture import resistance_picture
-from .table import force, mass_of, published, table_csv
+from .table import force, published, table_csv
 
 KILO = 1e3
 SHOWN = 3.0  # %
@@ -40,7 +40,7 @@ def run_resistance(speeds, vehicle_file, scheduler, out):
     store = CaseStore(folder / "cases", text, ResistanceCase, ResistanceResult)
     cases = [ResistanceCase(speed) for speed in speeds]
     found = run_shown(vehicle, cases, store, folder, console, scheduler, roll)
-    found, mass = {case: found[case] for case in cases}, mass_of(vehicle)
+    found, mass = {case: found[case] for case in cases}, whole_mass(vehicle)
     title = f"Running resistance of {vehicle.name}, {mass / KILO:.1f} t, on level ground"
     with new_file(folder / "resistance.csv") as file:
         file.write(table_csv(found, mass).encode())

@@ -3,7 +3,7 @@
 import csv
 from io import StringIO
 
-from ...vehicle.body_tree import GRAVITY, build_body_table
+from ...vehicle.body_tree import GRAVITY
 from ...vehicle.energy import Part
 from ..case import GOOD
 
@@ -24,12 +24,6 @@ assert list(SINKS) == [part.name.lower() for part in Part]
 FORMULAS = {"222 + 3 V": lambda v: 222.0 + 3.0 * v, "133 + 2.5 V": lambda v: 133.0 + 2.5 * v}
 KMH = 3.6  # km/h in a m/s
 TONNE = 1e3  # kg
-
-
-def mass_of(vehicle):
-    """Return the mass of a vehicle with its tracks [kg]."""
-    tracks = vehicle.tracks
-    return sum(body.mass for body in build_body_table(vehicle)) + sum(tracks.links) * tracks.shoe_mass
 
 
 def published(mass, speed):

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...numerics.compiled import kernel
+from ..drive.path import path_distance, path_point
 from .nodes import STRIDE, NodeOffset, NodeWorkOffset
 
 LEAST = 1e-9  # N, against division by zero where a shoe is not pulled at all
@@ -42,16 +43,35 @@ def road_height(road, side, x):
 
 
 @kernel
+def find_on_path(path, nodes, begin, end, work):
+    """Find where the nodes `begin` ... `end - 1` of a track are along the path, and its direction and length there."""
+    along, tangent = NodeWorkOffset.ALONG * STRIDE, NodeWorkOffset.TANGENT * STRIDE
+    if path.curved[0]:
+        for i in range(begin, end):
+            x, y = nodes[i], nodes[STRIDE + i]
+            distance = path_distance(path, x, y, path.distance[0] + work[i])  # from the hull straight ahead
+            px, py, tx, ty, curvature = path_point(path, distance)
+            work[along + i] = distance
+            work[tangent + i], work[tangent + STRIDE + i] = tx, ty
+            work[NodeWorkOffset.STRETCH * STRIDE + i] = 1.0 - curvature * (tx * (y - py) - ty * (x - px))
+    else:
+        for i in range(begin, end):
+            work[along + i] = nodes[i]
+            work[tangent + i], work[tangent + STRIDE + i] = 1.0, 0.0
+            work[NodeWorkOffset.STRETCH * STRIDE + i] = 1.0
+
+
+@kernel
 def add_ground(ground, nodes, heights, first, spacing, begin, end, work, dt):
     """Fill the ground's forces on the nodes `begin` ... `end - 1` of a track and advance their shear by dt.
 
     `heights` (m,) are the samples of the track's side from sample `first` on [m]. Returns the power turned into heat
-    [W], the energy stored [J] and the number of shoes on the ground.
+    [W], the energy stored [J] and the number of shoes on the ground. `find_on_path` comes first.
     """
     # from here on the first node is number 0, so that indices are seen to be positive and loops become vectors
     nodes, work, count = nodes[begin:], work[begin:], end - begin
     for i in range(count):
-        work[NodeWorkOffset.SAMPLE * STRIDE + i] = np.floor(nodes[i] / spacing)
+        work[NodeWorkOffset.SAMPLE * STRIDE + i] = np.floor(work[NodeWorkOffset.ALONG * STRIDE + i] / spacing)
     last = len(heights) - 2
     for i in range(count):
         k = min(max(int(work[NodeWorkOffset.SAMPLE * STRIDE + i]) - first, 0), last)
@@ -67,13 +87,14 @@ def add_ground(ground, nodes, heights, first, spacing, begin, end, work, dt):
     )
     for i in range(count):
         low, rise = work[NodeWorkOffset.LOW * STRIDE + i], work[NodeWorkOffset.RISE * STRIDE + i]
-        slope = rise / spacing
+        slope = rise / (spacing * work[NodeWorkOffset.STRETCH * STRIDE + i])
         cosine = 1.0 / np.sqrt(1.0 + slope * slope)
         sine = slope * cosine
-        depth = (
-            low + (nodes[i] / spacing - work[NodeWorkOffset.SAMPLE * STRIDE + i]) * rise - nodes[2 * STRIDE + i]
-        ) * cosine
-        vx, vy = nodes[NodeOffset.VELOCITY * STRIDE + i], nodes[(NodeOffset.VELOCITY + 1) * STRIDE + i]
+        part = work[NodeWorkOffset.ALONG * STRIDE + i] / spacing - work[NodeWorkOffset.SAMPLE * STRIDE + i]
+        depth = (low + part * rise - nodes[2 * STRIDE + i]) * cosine
+        tx, ty = work[NodeWorkOffset.TANGENT * STRIDE + i], work[(NodeWorkOffset.TANGENT + 1) * STRIDE + i]
+        wx, wy = nodes[NodeOffset.VELOCITY * STRIDE + i], nodes[(NodeOffset.VELOCITY + 1) * STRIDE + i]
+        vx, vy = tx * wx + ty * wy, tx * wy - ty * wx
         vz = nodes[(NodeOffset.VELOCITY + 2) * STRIDE + i]
         up, ahead = cosine * vz - sine * vx, cosine * vx + sine * vz
         on = 1.0 if depth > 0.0 else 0.0
@@ -89,8 +110,9 @@ def add_ground(ground, nodes, heights, first, spacing, begin, end, work, dt):
         shear_y = on * (pull_y - c_s * vy) / k_s
         nodes[NodeOffset.SHEAR * STRIDE + i] = shear_x
         nodes[(NodeOffset.SHEAR + 1) * STRIDE + i] = shear_y
-        work[NodeWorkOffset.GROUND * STRIDE + i] = -sine * normal - cosine * pull_x
-        work[(NodeWorkOffset.GROUND + 1) * STRIDE + i] = -pull_y
+        push = -sine * normal - cosine * pull_x
+        work[NodeWorkOffset.GROUND * STRIDE + i] = tx * push + ty * pull_y
+        work[(NodeWorkOffset.GROUND + 1) * STRIDE + i] = ty * push - tx * pull_y
         work[(NodeWorkOffset.GROUND + 2) * STRIDE + i] = cosine * normal - sine * pull_x
         after = shear_x * shear_x + shear_y * shear_y
         dissipation += up * (spring - normal) + pull_x * ahead + pull_y * vy

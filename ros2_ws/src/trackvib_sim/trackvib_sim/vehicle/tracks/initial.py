@@ -23,7 +23,7 @@ def assemble_tracks(vehicle, system, state, speed, phase):
     state.tree.position[:, 2] += height
     state.tree.velocity[:, 0] = speed
     weight = sum(body.mass for body in build_body_table(vehicle)) * GRAVITY
-    state.speed_integral[0] = np.sign(speed) * DRAG * weight
+    state.drive.driving.speed_integral[0] = np.sign(speed) * DRAG * weight
     state.tree.hinge_rate[tracks.wheels.row] = speed / tracks.wheels.radius
     state.tree.hinge_rate[tracks.sprockets.row] = speed / radius
     state.tracks.tensioner.travel[:] = tracks.tensioner.fitted

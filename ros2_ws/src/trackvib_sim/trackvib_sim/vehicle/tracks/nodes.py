@@ -51,7 +51,10 @@ class NodeWorkOffset(IntEnum):
     SAMPLE = 26  # number of the road's sample behind the node
     LOW = 27  # its height, m
     RISE = 28  # from it to the next, m
-    SIZE = 29
+    ALONG = 29  # distance along the path, m
+    TANGENT = 30  # of the path, x and y, global axes
+    STRETCH = 32  # by which the road under the node is longer than its distances say
+    SIZE = 33
 
 
 class Chain(NamedTuple):

@@ -10,7 +10,8 @@ from ...numerics.spatial import rotate
 from ...rui.sweeps.articulated import apply_wrench
 from ...rui.sweeps.kinematics import MotionOffset, motion_vector, rotation
 from ..body_tree import SIDES
-from .ground import Ground, add_ground, build_ground, road_height
+from ..drive.path import path_distance
+from .ground import Ground, add_ground, build_ground, find_on_path, road_height
 from .layout import fit_idler, idler_load
 from .nodes import STRIDE, Chain, add_links, build_chain, move_nodes, new_node_work, new_nodes, see_from_hull
 from .sprockets import Sprockets, add_sprocket, build_sprockets
@@ -114,7 +115,7 @@ def new_track_work():
 
 
 @kernel
-def add_tracks(tracks, state, tree_state, road, motion, cuts, work, dt):
+def add_tracks(tracks, state, tree_state, road, path, motion, cuts, work, dt):
     """Add the forces of both tracks to the bodies of the tree, and prepare those on their own nodes.
 
     The shear of the ground under the shoes is advanced by dt.
@@ -130,7 +131,7 @@ def add_tracks(tracks, state, tree_state, road, motion, cuts, work, dt):
         work.stored[TrackPart.LINKS] += stored
         _add_wheels(tracks, state, side, motion, cuts, work)
         _add_sprocket(tracks, state, side, tree_state, motion, cuts, work)
-        _add_ground(tracks, state, side, road, work, dt)
+        _add_ground(tracks, state, side, road, path, work, dt)
 
 
 @kernel
@@ -181,25 +182,26 @@ def _add_sprocket(tracks, state, side, tree_state, motion, cuts, work):
 
 
 @kernel
-def _add_ground(tracks, state, side, road, work, dt):
+def _add_ground(tracks, state, side, road, path, work, dt):
     """Only the lower run, from the rearmost node to the foremost one, can touch the ground."""
-    n, height = tracks.chain.links[side], road.height[side]
+    n = tracks.chain.links[side]
     begin, last = state.outermost[side], state.link[side, tracks.wheels.row.shape[1] - 1]
     if tracks.wheels.end < 0.0:
         begin, last = last, begin
     end = last + 1
     if begin < end:
-        _add_stretch(tracks, state, side, height, road, begin, end, work, dt)
+        _add_stretch(tracks, state, side, road, path, begin, end, work, dt)
     else:
-        _add_stretch(tracks, state, side, height, road, begin, n + 1, work, dt)
-        _add_stretch(tracks, state, side, height, road, 1, end, work, dt)
+        _add_stretch(tracks, state, side, road, path, begin, n + 1, work, dt)
+        _add_stretch(tracks, state, side, road, path, 1, end, work, dt)
 
 
 @kernel
-def _add_stretch(tracks, state, side, height, road, begin, end, work, dt):
+def _add_stretch(tracks, state, side, road, path, begin, end, work, dt):
     nodes, forces = state.nodes[side], work.nodes[side]
+    find_on_path(path, nodes, begin, end, forces)
     dissipation, stored, touching = add_ground(
-        tracks.ground, nodes, height, road.first, road.spacing, begin, end, forces, dt
+        tracks.ground, nodes, road.height[side], road.first, road.spacing, begin, end, forces, dt
     )
     work.dissipation[TrackPart.GROUND] += dissipation
     work.stored[TrackPart.GROUND] += stored
@@ -215,13 +217,13 @@ def move_tracks(tracks, state, motion, gravity, work, dt):
 
 
 @kernel
-def wheel_below_road(tracks, road, motion):
+def wheel_below_road(tracks, road, path, motion):
     """Return whether the hub of any road wheel lies below the road, where its links know no way out."""
     for side in range(2):
         for k in range(tracks.wheels.row.shape[1]):
             if tracks.wheels.run[side, k] == LOWER_RUN:
                 hub = motion_vector(motion, MotionOffset.ORIGIN, tracks.wheels.row[side, k])
-                if hub[2] < road_height(road, side, hub[0]):
+                if hub[2] < road_height(road, side, path_distance(path, hub[0], hub[1], path.distance[0])):
                     return True
     return False
 

@@ -1,0 +1,83 @@
+"""What is wanted of the driver over time or distance: speed, curvature of the path, speed of the engine."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...numerics.compiled import kernel
+from ...numerics.units import RPM
+
+
+class Schedule(NamedTuple):
+    """Points between which what is wanted changes linearly; before the first and behind the last it stays.
+
+    Over time the curvature is that of the path at the vehicle's front at that time, over distance that of the path.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> import numpy as np
+    >>> faster = tv.Schedule(False, np.array([0.0, 5.0]), np.array([5.0, 10.0]), np.zeros(2), np.zeros(2))
+    >>> faster.speed[-1]  # m/s, from 5 s on
+    10.0
+    """
+
+    by_distance: bool
+    at: np.ndarray  # (m,) s from the start of the run, or m along the path; growing
+    speed: np.ndarray  # (m,) m/s, below zero backwards
+    curvature: np.ndarray  # (m,) 1/m, to the left
+    engine_speed: np.ndarray  # (m,) rad/s of the crankshaft; without effect where gears give it
+
+
+def constant_schedule(speed, engine_speed):
+    """Return the schedule of a run at one speed [m/s] and engine speed [r/min]."""
+    return Schedule(False, np.zeros(1), np.array([float(speed)]), np.zeros(1), np.array([engine_speed * RPM]))
+
+
+class Wanted(NamedTuple):
+    """What is wanted now, changed in place."""
+
+    time: np.ndarray  # (1,) s since the start of the run
+    speed: np.ndarray  # (1,) m/s
+    acceleration: np.ndarray  # (1,) m/s^2
+    command: np.ndarray  # (2,) speed, m/s, and curvature, 1/m, that somebody has asked for in the schedule's stead
+    commanded: np.ndarray  # (1,) whether anybody has
+
+
+def new_wanted(schedule):
+    """Return what is wanted at the start of a run."""
+    return Wanted(np.zeros(1), schedule.speed[:1].copy(), np.zeros(1), np.zeros(2), np.zeros(1, np.bool_))
+
+
+@kernel
+def scheduled(schedule, values, at):
+    """Return the value of one of the schedule's columns (m,) at a time or distance."""
+    low, high = 0, schedule.at.size - 1
+    if at <= schedule.at[low]:
+        return values[low]
+    if at >= schedule.at[high]:
+        return values[high]
+    while high - low > 1:
+        middle = (low + high) // 2
+        if schedule.at[middle] <= at:
+            low = middle
+        else:
+            high = middle
+    part = (at - schedule.at[low]) / (schedule.at[high] - schedule.at[low])
+    return (1.0 - part) * values[low] + part * values[high]
+
+
+@kernel
+def wanted_speed(schedule, wanted, distance):
+    """Return the wanted speed [m/s] of a vehicle that has come so far along its path [m]."""
+    if wanted.commanded[0]:
+        return wanted.command[0]
+    return scheduled(schedule, schedule.speed, distance if schedule.by_distance else wanted.time[0])
+
+
+@kernel
+def wanted_curvature(schedule, wanted, distance):
+    """Return the wanted curvature [1/m] of the path at a distance [m] that the vehicle's front reaches now."""
+    if wanted.commanded[0]:
+        return wanted.command[1]
+    return scheduled(schedule, schedule.curvature, distance if schedule.by_distance else wanted.time[0])
