@@ -80,6 +80,13 @@ def _interrupt():
     show_default=True,
     help="Speed in m/s; below 0 backwards.",
 )
+@click.option(
+    "--drive",
+    type=click.Path(exists=True, dir_okay=False),
+    default=None,
+    help="Drive file: speed, path and engine speed over time or distance, in place of --speed.",
+)
+@click.option("--gears", is_flag=True, help="Engine speed follows the vehicle's, through the vehicle file's gears.")
 @click.option("--duration", type=FiniteRange(0.1, 3600.0), default=10.0, show_default=True, help="Simulated time in s.")
 @click.option(
     "--law",

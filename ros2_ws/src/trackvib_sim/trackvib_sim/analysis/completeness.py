@@ -54,7 +54,8 @@ def _answers(answers, stamps, diagnostics):
 def _road(recording):
     if recording.odometry is None:
         return ""
-    reached, end = recording.odometry.position[[0, -1], 0]
+    way = recording.odometry.position[:, 0] if recording.drive is None else recording.drive.distance
+    reached, end = way[[0, -1]]
     for start, spacing, left, _ in sorted(recording.road, key=lambda patch: patch[0]):
         if start > reached + 0.5 * spacing:
             break

@@ -9,7 +9,7 @@ from mr_mount_controller.node_base import topics
 from ..bags.provenance import parameters_with
 from ..numerics.units import NANO
 from .numbers import SENSORS, Timing
-from .settling import SHORTEST_SETTLING, settling_time
+from .settling import SHORTEST_SETTLING, VEHICLE_BEHIND, settling_time
 from .stamps import start_of, timing
 
 SHORTEST_MEASURING = 1.0  # s
@@ -81,10 +81,22 @@ def find_segments(recording, settle=None):
 
 
 def settling_of(recording):
-    """Return the time [s] that the recorded run settles, by the parameters of its nodes; the shortest if unknown."""
+    """Return the time [s] that the recorded run settles, by the parameters of its nodes; the shortest if unknown.
+
+    Where the speed followed a drive file or commands it is when the vehicle was on the full roughness.
+    """
     road, simulator = (parameters_with(recording.provenance, name)[1] for name in ("level_until", "engine_speed"))
     try:
-        found = settling_time(float(simulator["speed"]), float(road["level_until"]) + float(road["fade"]))
+        full = float(road["level_until"]) + float(road["fade"])
+        if recording.drive is not None and (recording.drive_file or recording.commands is not None):
+            drive = recording.drive
+            there = drive.stamp[np.abs(drive.distance) >= full + VEHICLE_BEHIND]
+            return (
+                max((int(there[0]) - start_of(recording)) / NANO, SHORTEST_SETTLING)
+                if len(there)
+                else SHORTEST_SETTLING
+            )
+        found = settling_time(float(simulator["speed"]), full)
     except (KeyError, ValueError):
         return SHORTEST_SETTLING
     return found if isfinite(found) else SHORTEST_SETTLING

@@ -79,7 +79,13 @@ def _drive(recording, simulation, chosen, law, path, console):
     writer = BagWriter(path)
     ended, lockstep = "driven to the recorded end", None
     try:
-        constant = (topics.ROAD_PROFILE, topics.VEHICLE_DESCRIPTION, topics.MOUNT_DESCRIPTION)
+        constant = (
+            topics.ROAD_PROFILE,
+            topics.VEHICLE_DESCRIPTION,
+            topics.MOUNT_DESCRIPTION,
+            topics.DRIVE_DESCRIPTION,
+            topics.DRIVE_COMMAND,
+        )
         controller, _ = parameters_with(recording.provenance, "law")
         other = ("versions.yaml", f"parameters{controller}.yaml")
         known = copy_bag(recording.path, writer, lambda topic: topic.endswith(constant), lambda name: name not in other)
@@ -135,7 +141,7 @@ def _between(recording, begin, last, other):
         return type(columns)(*(column[kept] for column in columns)) if kept.any() else None
 
     cut = {sensor: cut_out(getattr(recording, sensor), getattr(other, sensor)) for sensor in SENSORS}
-    cut |= {part: cut_out(getattr(recording, part)) for part in ("mounts", "answers", "odometry")}
+    cut |= {part: cut_out(getattr(recording, part)) for part in ("mounts", "answers", "odometry", "drive")}
     further = {name: cut_out(sensor) for name, sensor in recording.sensors.items()}
     cut["sensors"] = {name: sensor for name, sensor in further.items() if sensor is not None}
     # when the whole run ended says nothing about a part of it

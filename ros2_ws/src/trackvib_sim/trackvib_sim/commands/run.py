@@ -19,7 +19,7 @@ from ..analysis.numbers import AXES, SENSORS
 from ..analysis.picture_data import prepare
 from ..analysis.plots import run_picture
 from ..analysis.segments import SHORTEST_MEASURING
-from ..analysis.settling import settling_time
+from ..analysis.settling import SHORTEST_SETTLING, VEHICLE_BEHIND, settling_time
 from ..analysis.summary import summarise
 from ..bags.errors import BagError
 from ..bags.reading import read_recording
@@ -29,6 +29,8 @@ from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses, closed
 from ..nodes.watch import Watch
 from ..road.iso8608 import TREAD
 from ..road_sources.road_file import RoadError, find_road, road_in_words, whole_name
+from ..vehicle.drive.drive_file import DriveFileError, drive_text, parse_drive
+from ..vehicle.drive.schedule import arrival_time
 from ..vehicle.mount_energy import MountEnergy
 from ..vehicle.step_size import recommended_rate
 from ..vehicle.vehicle_file import VehicleFileError, read_vehicle
@@ -45,6 +47,8 @@ class Choices:
     vehicle: str | None  # name or file; None for the default one
     road: str  # class, or file
     speed: float
+    drive: str | None  # file; then `speed` has no effect
+    gears: bool
     duration: float
     law: str
     seed: int
@@ -54,13 +58,18 @@ class Choices:
     @property
     def settling(self):
         """How long the run settles [s]: until all of the vehicle is on the road proper."""
-        return settling_time(self.speed, find_road(self.road, TREAD).begins)
+        begins = find_road(self.road, TREAD).begins
+        if self.drive is None:
+            return settling_time(self.speed, begins)
+        schedule = parse_drive(drive_text(self.drive), 0.0, self.drive)
+        return max(arrival_time(schedule, begins + VEHICLE_BEHIND), SHORTEST_SETTLING)
 
     @property
     def title(self):
         """The run in words."""
         vehicle = f"vehicle {self.vehicle}, " if self.vehicle else ""
-        road = f"{road_in_words(self.road)}, {self.speed:g} m/s"
+        drive = f"{self.speed:g} m/s" if self.drive is None else f"drive {Path(self.drive).name}"
+        road = f"{road_in_words(self.road)}, {drive}{' in gears' if self.gears else ''}"
         return f"{vehicle}{road}, law {self.law}, seed {self.seed}, {self.duration:g} s"
 
 
@@ -77,12 +86,13 @@ def run_loop(choices, out):
     """
     try:
         needed = choices.settling + SHORTEST_MEASURING
-    except RoadError as error:
+    except (RoadError, DriveFileError) as error:
         raise CommandError(str(error)) from None
     if choices.duration < needed:
+        how = f"at {choices.speed:g} m/s" if choices.drive is None else f"with drive {choices.drive}"
         raise CommandError(
-            f"--duration is {choices.duration:g} s, must be at least {needed:.1f} s at {choices.speed:g} m/s: "
-            f"{choices.settling:.1f} s to settle and {SHORTEST_MEASURING:g} s to measure"
+            f"--duration is {choices.duration:g} s, must be at least {needed:.1f} s {how}: {choices.settling:.1f} s to "
+            f"settle and {SHORTEST_MEASURING:g} s to measure"
         )
     console, path = Terminal(), find_vehicle(choices.vehicle).absolute()
     try:
@@ -90,7 +100,7 @@ def run_loop(choices, out):
     except VehicleFileError as error:
         raise CommandError(str(error)) from None
     with own_domain():
-        name = f"{datetime.now():%Y%m%dT%H%M%S}_{_short(choices.road)}_{choices.speed:g}"
+        name = f"{datetime.now():%Y%m%dT%H%M%S}_{_short(choices.road)}_{_pace(choices)}"
         folder = make_folder(out or Path("runs") / name)
         with writing_to(folder):
             (folder / "log").mkdir()
@@ -142,6 +152,8 @@ def _run_nodes(choices, vehicle, tread, folder, console):
             "vehicle_file": str(vehicle),
             "physics_rate": choices.physics_rate,
             "speed": float(choices.speed),
+            "drive": "" if choices.drive is None else str(Path(choices.drive).absolute()),
+            "gears": choices.gears,
             "duration": float(choices.duration),
         },
     }
@@ -208,9 +220,13 @@ def _evaluate(choices, folder, console):
     return missing(recording)
 
 
-def _short(road):
-    """The road as a part of a file's name."""
-    return re.sub(r"[^A-Za-z0-9-]+", "-", Path(road).stem)[:40] or "road"
+def _short(path):
+    """Road or drive as a part of a file's name."""
+    return re.sub(r"[^A-Za-z0-9-]+", "-", Path(path).stem)[:40] or "file"
+
+
+def _pace(choices):
+    return f"{choices.speed:g}" if choices.drive is None else _short(choices.drive)
 
 
 def _print_summary(console, summary, folder):

@@ -10,9 +10,10 @@ from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.packed_message import PackedMessage
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu
-from trackvib_msgs.msg import Mount, MountDescription, MountState
+from trackvib_msgs.msg import DriveState, Mount, MountDescription, MountState
 
-from ..numerics.units import NANO
+from ..numerics.units import NANO, RPM
+from ..vehicle.drive.path import path_heading
 
 _MESSAGE_TYPE = re.compile(r"[a-z][a-z0-9_]*/msg/[A-Z][A-Za-z0-9]*")
 
@@ -94,6 +95,25 @@ def mount_description(mounting):
     for name, value in curve.items():
         setattr(message.curve, name, value)
     return message
+
+
+class DriveMessage:
+    """How the vehicle is driven."""
+
+    def __init__(self):
+        self._message = DriveState()
+        self._message.header.frame_id = topics.HULL_FRAME
+
+    def fill(self, stamp, system, state):
+        """Return the message for a `vehicle.system.System` and its `State` at a time [ns]."""
+        m, drive = self._message, state.drive
+        set_stamp(m, stamp)
+        m.distance, m.offset = float(drive.path.distance[0]), float(drive.path.offset[0])
+        m.wanted_speed, m.curvature = float(drive.wanted.speed[0]), float(path_heading(drive.path)[1])
+        m.engine_speed, m.gear = float(drive.crank.speed[0] / RPM), int(drive.shaft.gear[0])
+        m.sprocket_speed = state.tree.hinge_rate[system.drive.driver.sprocket]
+        m.sprocket_torque = drive.driving.torque
+        return m
 
 
 class OdometryMessage:

@@ -3,6 +3,7 @@
 import time
 
 from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import TwistStamped
 from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.qos import CLOCK_QOS, LATCHED_QOS, LOOP_WRITER_QOS
 from nav_msgs.msg import Odometry
@@ -10,12 +11,12 @@ from rclpy.duration import Duration
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu
 from std_msgs.msg import String
-from trackvib_msgs.msg import MountDescription, MountState
+from trackvib_msgs.msg import DriveState, MountDescription, MountState
 
 from ..numerics.units import NANO
 from ..simulation.readings import Readings
 from ..simulation.simulation import POWERTRAIN
-from .messages import ImuMessage, MountMessage, OdometryMessage, diagnostics, mount_description
+from .messages import DriveMessage, ImuMessage, MountMessage, OdometryMessage, diagnostics, mount_description, set_stamp
 
 DIAGNOSTICS_RATE = 10  # Hz of simulated time
 _FLUSH = 4.0  # s for the last messages to arrive
@@ -39,10 +40,15 @@ class SimulatorOutput:
         self._loop_out = [self._imu_out[sensor] for sensor in sensors[: POWERTRAIN + 1]]
         self._mount_out = node.create_publisher(MountState, topics.MOUNT_STATE, LOOP_WRITER_QOS)
         self._odometry_out = node.create_publisher(Odometry, topics.ODOMETRY, LATCHED_QOS)
+        self._drive, self._command = DriveMessage(), TwistStamped()
+        self._command.header.frame_id = topics.HULL_FRAME
+        self._drive_out = node.create_publisher(DriveState, topics.DRIVE_STATE, LATCHED_QOS)
+        self._command_out = node.create_publisher(TwistStamped, topics.DRIVE_COMMAND, LATCHED_QOS)
         self._clock_out = node.create_publisher(Clock, topics.CLOCK, CLOCK_QOS)
         self._diagnostics_out = node.create_publisher(DiagnosticArray, topics.DIAGNOSTICS, LOOP_WRITER_QOS)
         self._vehicle_out = node.create_publisher(String, topics.VEHICLE_DESCRIPTION, LATCHED_QOS)
-        self._vehicle_text = vehicle_text
+        self._vehicle_text, self._drive_text = vehicle_text, drive_text
+        self._drive_file_out = node.create_publisher(String, topics.DRIVE_DESCRIPTION, LATCHED_QOS)
         self._description_out = node.create_publisher(MountDescription, topics.MOUNT_DESCRIPTION, LATCHED_QOS)
 
     def introduce(self):
@@ -53,6 +59,7 @@ class SimulatorOutput:
         self.publish_odometry()
         self._description_out.publish(mount_description(self._simulation.mounting))
         self._vehicle_out.publish(String(data=self._vehicle_text))
+        self._drive_file_out.publish(String(data=self._drive_text))
 
     def listeners(self):
         """Return how many listen to the Imu of the chassis and of the powertrain."""
@@ -69,11 +76,18 @@ class SimulatorOutput:
             self.publish_odometry()
 
     def publish_odometry(self):
-        """Publish where the vehicle is, and the clock."""
+        """Publish where the vehicle is, how it is driven, and the clock."""
         simulation = self._simulation
         odometry = self._odometry.fill(simulation.time, simulation.state.tree, simulation.sample)
         self._odometry_out.publish(odometry)
+        self._drive_out.publish(self._drive.fill(simulation.time, simulation.system, simulation.state))
         self.publish_clock()
+
+    def publish_command(self, speed, yaw_rate):
+        """Publish a speed [m/s] and yaw rate [rad/s] that are in force from now on."""
+        set_stamp(self._command, self._simulation.time)
+        self._command.twist.linear.x, self._command.twist.angular.z = speed, yaw_rate
+        self._command_out.publish(self._command)
 
     def publish_clock(self):
         """Publish the simulated time."""

@@ -8,7 +8,7 @@ from trackvib_msgs.msg import CoilCurrent
 from ..numerics.units import NANO
 from ..simulation.readings import Readings
 from .health import progress
-from .messages import ImuMessage, MountMessage, OdometryMessage, diagnostics, set_stamp
+from .messages import DriveMessage, ImuMessage, MountMessage, OdometryMessage, diagnostics, set_stamp
 from .output import DIAGNOSTICS_RATE
 
 
@@ -24,7 +24,7 @@ class RerunBag:
         self._readings = Readings(simulation)
         self._imus = {sensor.name: ImuMessage(topics.imu_frame(sensor.name)) for sensor in simulation.sensors}
         self._mounts, self._odometry = MountMessage(simulation.sample.mounts), OdometryMessage()
-        self._clock, self._answer = Clock(), CoilCurrent()
+        self._drive, self._clock, self._answer = DriveMessage(), Clock(), CoilCurrent()
 
     def begin(self):
         """Write where the vehicle stands before the first period."""
@@ -57,6 +57,8 @@ class RerunBag:
         clock.clock.sec, clock.clock.nanosec = divmod(simulation.time, NANO)
         odometry = self._odometry.fill(simulation.time, simulation.state.tree, simulation.sample)
         self._write(topics.ODOMETRY, serialize_message(odometry))
+        drive = self._drive.fill(simulation.time, simulation.system, simulation.state)
+        self._write(topics.DRIVE_STATE, serialize_message(drive))
         self._write(topics.CLOCK, serialize_message(clock))
 
     def _write(self, topic, data):

@@ -7,9 +7,8 @@ from mr_mount_controller.node_base.loop_node import LoopNode, run_node
 from mr_mount_controller.node_base.parameters import Parameter, ParameterError
 from mr_mount_controller.node_base.plain_text import plain_line
 from mr_mount_controller.node_base.qos import LATCHED_QOS, ROAD_QOS
-from mr_mount_controller.node_base.topics import ODOMETRY, ROAD_FRAME, ROAD_PROFILE
-from nav_msgs.msg import Odometry
-from trackvib_msgs.msg import RoadProfile
+from mr_mount_controller.node_base.topics import DRIVE_STATE, ROAD_FRAME, ROAD_PROFILE
+from trackvib_msgs.msg import DriveState, RoadProfile
 
 from ..road.feeder import RoadFeeder
 from ..road.iso8608 import CLASSES, FADE, LEVEL_UNTIL, TREAD, Exponential, Iso8608Road, Isotropic
@@ -29,29 +28,29 @@ _FARTHEST = 1e8  # m, more than the longest run goes
 
 
 class RoadExcitationNode(LoopNode):
-    """Follows the vehicle's odometry and publishes the patches of road that it will need."""
+    """Follows the vehicle along its path and publishes the patches of road that it will need."""
 
     def __init__(self):
         super().__init__("road_excitation", PARAMETERS)
         s = self.settings
         self._road = _road(s)
         self._feeder = RoadFeeder(self._road, s["horizon"])
-        self._last = (0, 0)  # stamp of the latest odometry, s and ns
+        self._last = (0, 0)  # stamp of the latest drive state, s and ns
         self._patches = self.create_publisher(RoadProfile, ROAD_PROFILE, ROAD_QOS)
-        self.listen(Odometry, ODOMETRY, self._on_odometry, LATCHED_QOS)
-        self.get_logger().info(f"road {plain_line(s['road'])}; waiting for a vehicle's odometry")
+        self.listen(DriveState, DRIVE_STATE, self._on_drive, LATCHED_QOS)
+        self.get_logger().info(f"road {plain_line(s['road'])}; waiting for a vehicle")
 
-    def _on_odometry(self, odometry):
-        position = odometry.pose.pose.position.x
-        if not abs(position) <= _FARTHEST:  # NaN is not either
-            raise Refused(f"position.x is {position} m, accepted is up to {_FARTHEST:g} m either way")
-        stamp = (odometry.header.stamp.sec, odometry.header.stamp.nanosec)
+    def _on_drive(self, drive):
+        distance = drive.distance
+        if not abs(distance) <= _FARTHEST:  # NaN is not either
+            raise Refused(f"distance is {distance} m, accepted is up to {_FARTHEST:g} m either way")
+        stamp = (drive.header.stamp.sec, drive.header.stamp.nanosec)
         if stamp <= self._last:  # a new run, or a vehicle that asks again because it still has no road
             self._feeder = RoadFeeder(self._road, self.settings["horizon"])
         self._last = stamp
-        for start, spacing, heights in self._feeder.patches(position):
+        for start, spacing, heights in self._feeder.patches(distance):
             patch = RoadProfile(start=start, spacing=spacing, left=heights[0], right=heights[1])
-            patch.header.stamp = odometry.header.stamp
+            patch.header.stamp = drive.header.stamp
             patch.header.frame_id = ROAD_FRAME
             self._patches.publish(patch)
 

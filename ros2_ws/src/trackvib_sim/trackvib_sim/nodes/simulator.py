@@ -4,6 +4,7 @@ import math
 import sys
 import time
 
+from geometry_msgs.msg import TwistStamped
 from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.listener import Refused
 from mr_mount_controller.node_base.loop_node import LoopNode, NodeError, run_node
@@ -32,15 +33,16 @@ class SimulatorNode(LoopNode):
         super().__init__("simulator", PARAMETERS)
         s = self.settings
         self._waits_for_answers = s["pace"] == "lockstep"
-        self._simulation, usable, vehicle_text = prepare(s)
+        self._simulation, usable, vehicle_text, drive_text = prepare(s)
         self._usable = usable
         self._begin_counts()
         self._warned = False  # of several controllers
 
-        self._output = SimulatorOutput(self, self._simulation, vehicle_text)
+        self._output = SimulatorOutput(self, self._simulation, vehicle_text, drive_text)
         answer = MessageReader(CoilCurrent, "sample_stamp", {"current": self._simulation.mounting.coils})
         self._answers = self.listen(CoilCurrent, topics.COIL_CURRENT, self._on_answer, LOOP_QOS, answer.read)
         self.listen(RoadProfile, topics.ROAD_PROFILE, self._on_road, ROAD_QOS)
+        self.listen(TwistStamped, topics.CMD_VEL, self._on_command, LOOP_QOS)
         self._control = RunControl(self, self._time)
         self._second_clock = SecondClock(self, self._time)
         period = self._simulation.settings.rates.period
@@ -244,6 +246,14 @@ class SimulatorNode(LoopNode):
             self._simulation.road.add(patch.start, patch.spacing, patch.left, patch.right)
         except ValueError as error:
             raise Refused(str(error)) from None
+
+    def _on_command(self, message):
+        speed, yaw_rate = message.twist.linear.x, message.twist.angular.z
+        try:
+            self._simulation.command(speed, yaw_rate)
+        except ValueError as error:
+            raise Refused(str(error)) from None
+        self._output.publish_command(speed, yaw_rate)
 
     def _publish_diagnostics(self):
         controllers = self._answers.get_publisher_count()

@@ -3,20 +3,39 @@
 from contextlib import suppress
 
 from mr_mount_controller.node_base.parameters import Parameter, ParameterError
-from mr_mount_controller.node_base.topics import VEHICLE_DESCRIPTION
+from mr_mount_controller.node_base.topics import DRIVE_DESCRIPTION, VEHICLE_DESCRIPTION
 
 from ..bags.provenance import parameters_with
 from ..data import find_vehicle
+from ..numerics.units import RPM
 from ..simulation.settings import Rates, RunSettings
 from ..simulation.simulation import Simulation
 from ..vehicle.coil import usable_current
+from ..vehicle.drive.drive_file import DriveFileError, drive_text, parse_drive
 from ..vehicle.system import Operation
 from ..vehicle.vehicle_file import VehicleFileError, parse_vehicle, read_vehicle
 
+ROUNDING = 1e-9  # of an engine speed that was turned into rad/s and back
 PARAMETERS = (
     Parameter("vehicle_file", "", "Vehicle file; empty for the one that comes with the package."),
-    Parameter("speed", 10.0, "Speed that the driver keeps; below 0 backwards.", "m/s", -25.0, 25.0),
-    Parameter("engine_speed", 1650.0, "Engine speed; 0 for a standing engine.", "r/min", 0.0, 4000.0),
+    Parameter("drive", "", "Drive file: speed, path and engine speed over time or distance. Empty for none."),
+    Parameter(
+        "speed",
+        10.0,
+        "Speed that the driver keeps, where no drive file says it; below 0 backwards.",
+        "m/s",
+        -25.0,
+        25.0,
+    ),
+    Parameter("gears", False, "Whether engine speed follows the vehicle's, through the gears of the vehicle file."),
+    Parameter(
+        "engine_speed",
+        1650.0,
+        "Engine speed, where neither drive file nor gears say it; 0 for none.",
+        "r/min",
+        0.0,
+        4000.0,
+    ),
     Parameter(
         "engine_excitation",
         "forces",
@@ -50,7 +69,8 @@ PARAMETERS = (
 
 
 def prepare(values):
-    """Return the `Simulation` for a dict of parameter values, the range of usable currents [A] and the vehicle's text.
+    """Return the `Simulation` for a dict of parameter values, the range of usable currents [A], and two texts: of the
+    vehicle file and of the drive file, the latter empty where there is none.
 
     Raises
     ------
@@ -61,29 +81,43 @@ def prepare(values):
         vehicle, text = read_vehicle(find_vehicle(values["vehicle_file"]))
     except VehicleFileError as error:
         raise ParameterError(f"simulator: parameter 'vehicle_file': {error}") from None
-    return simulation_of(vehicle, values), usable_current(vehicle), text
-
-
-def simulation_of(vehicle, values):
-    """Return the `Simulation` of a vehicle for a dict of parameter values; raises as `prepare` does."""
-    low, high = vehicle.engine.speed_range
-    engine_speed = values["engine_speed"]
-    if engine_speed != 0.0 and not low <= engine_speed <= high:
-        raise ParameterError(
-            f"simulator: parameter 'engine_speed' is {engine_speed}, accepted is 0 or {low:g} to {high:g} r/min"
-        )
-    operation = Operation(
-        values["speed"], engine_speed, values["engine_excitation"] == "displacement", values["track_phase"]
-    )
     try:
+        drive = drive_text(values["drive"]) if values["drive"] else ""
+    except DriveFileError as error:
+        raise ParameterError(f"simulator: parameter 'drive': {error}") from None
+    return simulation_of(vehicle, values, drive), usable_current(vehicle), text, drive
+
+
+def simulation_of(vehicle, values, drive):
+    """Return the `Simulation` of a vehicle for a dict of parameter values and the text of a drive file, or none of it.
+
+    Raises as `prepare` does.
+    """
+    engine_speed = values["engine_speed"]
+    _check_engine_speed(vehicle, "parameter 'engine_speed'", engine_speed)
+    displacement = values["engine_excitation"] == "displacement"
+    try:
+        schedule = parse_drive(drive, engine_speed, "drive file") if drive else None
+        for speed in schedule.engine_speed if schedule else ():
+            _check_engine_speed(vehicle, "engine_speed in the drive file", speed / RPM)
+        operation = Operation(
+            values["speed"], engine_speed, displacement, values["track_phase"], schedule, values["gears"]
+        )
         rates = Rates(values["physics_rate"], values["control_rate"], values["odometry_rate"])
         return Simulation(vehicle, RunSettings(operation, rates, values["passive_current"]))
     except ValueError as error:  # also of the vehicle: its tracks do not fit, it cannot roll
         raise ParameterError(f"simulator: {error}") from None
 
 
+def _check_engine_speed(vehicle, item, value):
+    low, high = vehicle.engine.speed_range
+    if value != 0.0 and not low * (1.0 - ROUNDING) <= value <= high * (1.0 + ROUNDING):
+        raise ParameterError(f"simulator: {item} is {value:.10g}, accepted is 0 or {low:g} to {high:g} r/min")
+
+
 def prepare_again(recording):
-    """Return the `Simulation` of a `bags.recording.Recording` with all its road, and the recorded parameter values.
+    """Return the `Simulation` of a `bags.recording.Recording` with all its road and commands, and the recorded
+    parameter values.
 
     Raises
     ------
@@ -96,7 +130,12 @@ def prepare_again(recording):
     if not recorded:
         raise ParameterError("the bag does not tell the parameters of its simulator")
     values = {parameter.name: _value(parameter, recorded) for parameter in PARAMETERS}
-    simulation = simulation_of(parse_vehicle(recording.vehicle, VEHICLE_DESCRIPTION), values)
+    if values["drive"] and not recording.drive_file:
+        raise ParameterError(f"the bag holds no {DRIVE_DESCRIPTION}, but its run had a drive file")
+    vehicle = parse_vehicle(recording.vehicle, VEHICLE_DESCRIPTION)
+    simulation = simulation_of(vehicle, values, recording.drive_file or "")
+    if recording.commands is not None:
+        simulation.expect(list(zip(*(column.tolist() for column in recording.commands), strict=True)))
     for patch in recording.road:
         with suppress(ValueError):  # which the simulator refused as well
             simulation.road.add(*patch)

@@ -84,6 +84,7 @@ class Simulation:
         self.points = points_of(self.sensors, probes, body_rows(vehicle, self.system.tree), settings.rates)
         self._reach = max(abs(vehicle.idlers.x), abs(vehicle.sprockets.x)) + _MARGIN
         self._fastest = max(self.system.drive.schedule.speed, key=abs)
+        self._expected = []
         self.reset()
 
     def reset(self):
@@ -126,6 +127,15 @@ class Simulation:
         self.state.drive.wanted.command[:] = speed, curvature_of(speed, yaw_rate)
         self.state.drive.wanted.commanded[0] = True
 
+    def expect(self, commands):
+        """Take commands, each a time [ns], speed [m/s] and yaw rate [rad/s], when their time has come.
+
+        Those at times before the first period that is done are in force from it on. Raises as `command` does.
+        """
+        for _, speed, yaw_rate in commands:
+            curvature_of(speed, yaw_rate)
+        self._expected = sorted(commands, key=lambda command: command[0])
+
     def advance(self, demanded):
         """Do one control period with the demanded current of each coil [A].
 
@@ -134,6 +144,8 @@ class Simulation:
         RunFailed
             The state left what the model can describe. `sample` is still the last good one.
         """
+        while self._expected and self._expected[0][0] <= self.time:
+            self.command(*self._expected.pop(0)[1:])
         self._hold(self._road_around(1))
         self._demanded[:] = demanded
         status = next(self._statuses)

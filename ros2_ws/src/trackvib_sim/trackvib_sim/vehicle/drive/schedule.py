@@ -34,6 +34,25 @@ def constant_schedule(speed, engine_speed):
     return Schedule(False, np.zeros(1), np.array([float(speed)]), np.zeros(1), np.array([engine_speed * RPM]))
 
 
+def arrival_time(schedule, distance):
+    """Return when [s] a vehicle that follows a schedule has come so far [m] either way; infinite if it never does."""
+    at, speed = schedule.at, np.abs(schedule.speed)
+    if schedule.by_distance:
+        inside = np.concatenate([[0.0], at[(at > 0.0) & (at < distance)], [distance]])
+        # over a piece where speed grows linearly with distance
+        pace = np.interp(inside, at, speed)
+        mean = np.where(
+            np.diff(pace) == 0.0, pace[:-1], np.diff(pace) / np.log(pace[1:] / pace[:-1] + (np.diff(pace) == 0.0))
+        )
+        return float(np.sum(np.diff(inside) / mean))
+    times = np.concatenate([[0.0], at[at > 0.0]])
+    pace = np.interp(times, at, speed)
+    way = np.concatenate([[0.0], np.cumsum(0.5 * (pace[1:] + pace[:-1]) * np.diff(times))])
+    if way[-1] < distance:
+        return float(times[-1] + (distance - way[-1]) / pace[-1]) if pace[-1] else np.inf
+    return float(np.interp(distance, way, times))
+
+
 class Wanted(NamedTuple):
     """What is wanted now, changed in place."""
 
