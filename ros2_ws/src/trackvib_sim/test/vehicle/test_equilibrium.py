@@ -137,7 +137,8 @@ def test_new_state_is_all_zero(system):
     assert state.tree.attitude.tolist() == [[1.0, 0.0, 0.0, 0.0]]
     fields = state.fields
     assert np.isinf(fields.limit).all()
-    alone = (state.tracks.nodes, state.crank_angle, state.speed_integral, state.flight)
+    drive = state.drive
+    alone = (state.tracks.nodes, drive.crank.angle, *drive.driving, drive.path.distance, state.flight)
     springs = fields.place, fields.force, fields.stiffness
     records = (*state.tree[:1], *state.tree[2:], *state.tracks.tensioner, *state.coils, *springs)
     for part in (*records, *alone, *state.mount_energy):

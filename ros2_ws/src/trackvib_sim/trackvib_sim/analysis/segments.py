@@ -91,11 +91,8 @@ def settling_of(recording):
         if recording.drive is not None and (recording.drive_file or recording.commands is not None):
             drive = recording.drive
             there = drive.stamp[np.abs(drive.distance) >= full + VEHICLE_BEHIND]
-            return (
-                max((int(there[0]) - start_of(recording)) / NANO, SHORTEST_SETTLING)
-                if len(there)
-                else SHORTEST_SETTLING
-            )
+            arrived = (int(there[0]) - start_of(recording)) / NANO if len(there) else 0.0
+            return max(arrived, SHORTEST_SETTLING)
         found = settling_time(float(simulator["speed"]), full)
     except (KeyError, ValueError):
         return SHORTEST_SETTLING

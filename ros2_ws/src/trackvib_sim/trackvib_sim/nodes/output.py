@@ -25,7 +25,7 @@ _FLUSH = 4.0  # s for the last messages to arrive
 class SimulatorOutput:
     """All publishers of the simulator node."""
 
-    def __init__(self, node, simulation, vehicle_text):
+    def __init__(self, node, simulation, vehicle_text, drive_text):
         self._simulation = simulation
         rates = simulation.settings.rates
         self._periods_an_odometry = rates.control // rates.odometry

@@ -19,19 +19,12 @@ ROUNDING = 1e-9  # of an engine speed that was turned into rad/s and back
 PARAMETERS = (
     Parameter("vehicle_file", "", "Vehicle file; empty for the one that comes with the package."),
     Parameter("drive", "", "Drive file: speed, path and engine speed over time or distance. Empty for none."),
-    Parameter(
-        "speed",
-        10.0,
-        "Speed that the driver keeps, where no drive file says it; below 0 backwards.",
-        "m/s",
-        -25.0,
-        25.0,
-    ),
+    Parameter("speed", 10.0, "Speed to keep, where no drive file says it; below 0 backwards.", "m/s", -25.0, 25.0),
     Parameter("gears", False, "Whether engine speed follows the vehicle's, through the gears of the vehicle file."),
     Parameter(
         "engine_speed",
         1650.0,
-        "Engine speed, where neither drive file nor gears say it; 0 for none.",
+        "Engine speed without gears, where no drive file says it; 0 for a standing engine.",
         "r/min",
         0.0,
         4000.0,

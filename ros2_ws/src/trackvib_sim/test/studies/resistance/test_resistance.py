@@ -36,7 +36,7 @@ def test_force_without_the_account_is_the_same(vehicle, rolled, simulation, leve
     assert pull(vehicle, FAST) == pytest.approx(force(rolled), rel=0.03)
     moving = simulation(FAST.speed)
     run_open_loop(moving, level, 3000)
-    work, way = moving.state.driven
+    work, way = moving.state.drive.driving.done
     assert way == pytest.approx(FAST.speed * 3.0, rel=0.01)
     assert work / way == pytest.approx(force(rolled), rel=0.03)
 

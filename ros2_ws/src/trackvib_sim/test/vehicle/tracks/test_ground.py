@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from trackvib_sim.road.store import Road
-from trackvib_sim.vehicle.tracks.ground import add_ground, road_height
+from trackvib_sim.vehicle.drive.path import new_path
+from trackvib_sim.vehicle.tracks.ground import add_ground, find_on_path, road_height
 from trackvib_sim.vehicle.tracks.nodes import NodeOffset, NodeWorkOffset, new_node_work, new_nodes
 
 from .momentum import shoes
@@ -33,6 +34,7 @@ def shoe(system):
 
 
 def _press(system, road, state, work):
+    find_on_path(new_path(), state, 1, 2, work)
     return add_ground(system.tracks.ground, state, road.height[0], road.first, road.spacing, 1, 2, work, DT)
 
 

@@ -40,11 +40,10 @@ def arrival_time(schedule, distance):
     if schedule.by_distance:
         inside = np.concatenate([[0.0], at[(at > 0.0) & (at < distance)], [distance]])
         # over a piece where speed grows linearly with distance
-        pace = np.interp(inside, at, speed)
-        mean = np.where(
-            np.diff(pace) == 0.0, pace[:-1], np.diff(pace) / np.log(pace[1:] / pace[:-1] + (np.diff(pace) == 0.0))
-        )
-        return float(np.sum(np.diff(inside) / mean))
+        pace, length = np.interp(inside, at, speed), np.diff(inside)
+        change = np.diff(pace) / pace[:-1]
+        slower = np.divide(np.log1p(change), change, out=np.ones_like(change), where=change != 0.0)
+        return float(np.sum(length / pace[:-1] * slower))
     times = np.concatenate([[0.0], at[at > 0.0]])
     pace = np.interp(times, at, speed)
     way = np.concatenate([[0.0], np.cumsum(0.5 * (pace[1:] + pace[:-1]) * np.diff(times))])

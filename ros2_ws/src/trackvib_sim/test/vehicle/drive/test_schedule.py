@@ -1,0 +1,117 @@
+"""What is wanted over time or distance, and the files that say so."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from trackvib_sim.vehicle.drive.drive_file import DriveFileError, parse_drive
+from trackvib_sim.vehicle.drive.schedule import (
+    Schedule,
+    arrival_time,
+    constant_schedule,
+    new_wanted,
+    scheduled,
+    wanted_curvature,
+    wanted_speed,
+)
+
+GROWING = st.lists(st.floats(-50.0, 50.0), min_size=1, max_size=8, unique=True).map(sorted)
+
+
+@pytest.mark.property
+@given(at=GROWING, seed=st.integers(0, 2**32 - 1), where=st.floats(-60.0, 60.0))
+@settings(max_examples=100)
+def test_between_points_a_value_is_that_of_the_straight_line(at, seed, where):
+    """As numpy interpolates, beyond the ends as at them."""
+    at, values = np.array(at), np.random.default_rng(seed).normal(size=len(at))
+    schedule = constant_schedule(1.0, 0.0)._replace(at=at)
+    assert scheduled(schedule, values, where) == pytest.approx(np.interp(where, at, values), rel=1e-12, abs=1e-12)
+
+
+@pytest.mark.analytic
+def test_speed_and_curvature_are_over_time_or_distance():
+    """What a point says holds at its time or place; a command replaces both."""
+    at = np.array([0.0, 10.0])
+    table = Schedule(True, at, np.array([2.0, 4.0]), np.array([0.0, 0.05]), np.zeros(2))
+    for by_distance, distance, time in ((True, 5.0, 0.0), (False, 0.0, 5.0)):
+        schedule = table._replace(by_distance=by_distance)
+        wanted = new_wanted(schedule)
+        wanted.time[0] = time
+        assert wanted_speed(schedule, wanted, distance) == pytest.approx(3.0)
+        assert wanted_curvature(schedule, wanted, distance) == pytest.approx(0.025)
+        wanted.command[:], wanted.commanded[0] = (1.5, -0.01), True
+        assert (wanted_speed(schedule, wanted, distance), wanted_curvature(schedule, wanted, distance)) == (1.5, -0.01)
+
+
+@pytest.mark.analytic
+@pytest.mark.parametrize(
+    ("by_distance", "at", "speed", "distance", "expected"),
+    [
+        (False, [0.0], [5.0], 10.0, 2.0),
+        (False, [0.0], [-5.0], 10.0, 2.0),
+        (False, [0.0, 4.0], [0.0, 8.0], 16.0, 4.0),
+        (False, [1.0, 3.0], [2.0, 6.0], 14.0, 3.0 + 4.0 / 6.0),
+        (False, [0.0, 2.0], [4.0, 0.0], 5.0, np.inf),
+        (True, [0.0], [5.0], 10.0, 2.0),
+        (True, [0.0, 10.0], [5.0, 10.0], 10.0, 2.0 * np.log(2.0)),
+        (True, [2.0, 4.0], [1.0, 1.0], 10.0, 10.0),
+    ],
+)
+def test_arrival(by_distance, at, speed, distance, expected):
+    """The time at which so many metres are done is the integral's."""
+    zeros = np.zeros(len(at))
+    schedule = Schedule(by_distance, np.array(at), np.array(speed), zeros, zeros)
+    assert arrival_time(schedule, distance) == pytest.approx(expected)
+
+
+@pytest.mark.analytic
+def test_a_file_becomes_a_schedule():
+    """Numbers are those of the file, what is not said is straight on and at the given engine speed."""
+    text = "over: distance\npoints:\n  - {at: 0, speed: 5}\n  - {at: 20.5, speed: 8, curvature: -0.02}\n"
+    schedule = parse_drive(text, 1650.0, "drive")
+    assert schedule.by_distance and schedule.at.tolist() == [0.0, 20.5] and schedule.speed.tolist() == [5.0, 8.0]
+    assert schedule.curvature.tolist() == [0.0, -0.02]
+    np.testing.assert_allclose(schedule.engine_speed, 1650.0 * np.pi / 30.0)
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "drive"),
+        ("[]", "drive"),
+        ("points: []", "points"),
+        ("points: 5", "points"),
+        ("{over: weeks, points: [{at: 0, speed: 1}]}", "over"),
+        ("points: [{at: 0}]", "speed"),
+        ("points: [{at: 0, speed: fast}]", "speed"),
+        ("points: [{at: 0, speed: .nan}]", "speed"),
+        ("points: [{at: .inf, speed: 1}]", "at"),
+        ("points: [{at: 1e9, speed: 1}]", "at"),
+        ("points: [{at: 0, speed: 26}]", "speed is 26.0 m/s, accepted is -25 to 25 m/s"),
+        ("points: [{at: 0, speed: 5, curvature: 0.2}]", "curvature is 0.2 1/m, accepted is -0.1 to 0.1 1/m"),
+        ("points: [{at: 0, speed: -5, curvature: 0.05}]", "backwards only 0 is accepted"),
+        ("points: [{at: 0, speed: 1}, {at: 0, speed: 2}]", "point 2: at is 0, must be above 0"),
+        ("points: [{at: 2, speed: 1}, {at: 1, speed: 2}]", "point 2: at is 1, must be above 2"),
+        ("points: [{at: 0, speed: 1, engine_speed: 900}, {at: 1, speed: 2}]", "1 of 2 points have an engine_speed"),
+        ("points: [{at: 0, speed: 1, engine_speed: -9}]", "engine_speed"),
+        ("points: [{at: 0, speed: 1, gear: 2}]", "gear"),
+        ("{over: distance, points: [{at: 0, speed: 0}]}", "point 1: speed is 0 m/s, over distance at least 0.1"),
+        ("points: [{at: 0, speed: 1}]\nroad: C", "road"),
+        ("\0", "drive"),
+        ("points: [" * 100, "drive"),
+    ],
+)
+def test_a_bad_file_is_refused(text, words):
+    """With the file's name, the item and what is accepted."""
+    with pytest.raises(DriveFileError) as refused:
+        parse_drive(text, 1650.0, "drive.yaml")
+    assert "drive.yaml" in str(refused.value) and words in str(refused.value)
+
+
+@pytest.mark.property
+def test_too_many_points_are_refused():
+    """The number of points is bounded."""
+    points = ", ".join(f"{{at: {k}, speed: 1}}" for k in range(20_001))
+    with pytest.raises(DriveFileError, match="points"):
+        parse_drive(f"points: [{points}]", 0.0, "drive.yaml")
