@@ -10,6 +10,7 @@ import numpy as np  # noqa: E402
 from .numbers import AXES, SENSORS  # noqa: E402
 from .vibration import psd  # noqa: E402
 
+plt.rcParams["text.parse_math"] = False  # names of roads and laws come from outside
 COLOURS = {"chassis": "#3b6ea5", "powertrain": "#d1662b"}
 NAMES = ("longitudinal x", "lateral y", "vertical z")
 LOWEST_FREQUENCY = 1.0  # Hz, where the spectrum starts

@@ -1,5 +1,6 @@
 """`trackvib road`: what a road is like, as a table and a picture, and written as a file."""
 
+from contextlib import ExitStack
 from pathlib import Path
 
 import numpy as np
@@ -37,8 +38,10 @@ def run_road(text, seed, length, begin, tread, csv, crg, out):
     heights = road.heights(first, count)
     distance = road.spacing * np.arange(first, first + count)
     paths = [Path(path) for path in (out, csv, crg) if path is not None]
-    with whole_or_none(*paths) as files:
-        written = dict(zip(paths, files, strict=True))
+    if len({path.resolve() for path in (*paths, Path(text))}) <= len(paths):
+        raise ValueError("the road, --out, --csv and --crg name a file twice, accepted are different ones")
+    with ExitStack() as drafts:
+        written = {path: drafts.enter_context(whole_or_none(path))[0] for path in paths}
         road_picture(distance, heights, f"{road_in_words(text)}, {length:g} m", written[Path(out)])
         if csv is not None:
             write_csv_profile(written[Path(csv)], distance, heights)

@@ -27,7 +27,6 @@ from ..console import Description, Terminal
 from ..data import find_vehicle
 from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses, closed_loop_parameters
 from ..nodes.watch import Watch
-from ..road.iso8608 import TREAD
 from ..road_sources.road_file import RoadError, find_road, road_in_words, whole_name
 from ..vehicle.mount_energy import MountEnergy
 from ..vehicle.step_size import recommended_rate
@@ -52,11 +51,6 @@ class Choices:
     one_process: bool
 
     @property
-    def settling(self):
-        """How long the run settles [s]: until all of the vehicle is on the road proper."""
-        return settling_time(self.speed, find_road(self.road, TREAD).begins)
-
-    @property
     def title(self):
         """The run in words."""
         vehicle = f"vehicle {self.vehicle}, " if self.vehicle else ""
@@ -75,20 +69,18 @@ def run_loop(choices, out):
     KeyboardInterrupt
         After the nodes have ended in order and what there is has been summarised.
     """
-    try:
-        needed = choices.settling + SHORTEST_MEASURING
-    except RoadError as error:
-        raise CommandError(str(error)) from None
-    if choices.duration < needed:
-        raise CommandError(
-            f"--duration is {choices.duration:g} s, must be at least {needed:.1f} s at {choices.speed:g} m/s: "
-            f"{choices.settling:.1f} s to settle and {SHORTEST_MEASURING:g} s to measure"
-        )
     console, path = Terminal(), find_vehicle(choices.vehicle).absolute()
     try:
         vehicle, _ = read_vehicle(path)
-    except VehicleFileError as error:
+        tread = 2.0 * vehicle.road_wheels.y
+        settling = settling_time(choices.speed, find_road(choices.road, tread).begins)
+    except (RoadError, VehicleFileError) as error:
         raise CommandError(str(error)) from None
+    if choices.duration < settling + SHORTEST_MEASURING:
+        raise CommandError(
+            f"--duration is {choices.duration:g} s, must be at least {settling + SHORTEST_MEASURING:.1f} s at "
+            f"{choices.speed:g} m/s: {settling:.1f} s to settle and {SHORTEST_MEASURING:g} s to measure"
+        )
     with own_domain():
         name = f"{datetime.now():%Y%m%dT%H%M%S}_{_short(choices.road)}_{choices.speed:g}"
         folder = make_folder(out or Path("runs") / name)
@@ -98,9 +90,9 @@ def run_loop(choices, out):
         recommended = recommended_rate(vehicle)
         if choices.physics_rate < recommended:
             console.print(f"warning: --physics-rate {choices.physics_rate} is below the recommended {recommended} Hz")
-        interrupt = _run_nodes(choices, path, 2.0 * vehicle.road_wheels.y, folder, console)
+        interrupt = _run_nodes(choices, path, tread, folder, console)
     try:
-        lacking = _evaluate(choices, folder, console)
+        lacking = _evaluate(choices, settling, folder, console)
     except (BagError, ValueError) as error:
         raise interrupt or CommandError(str(error)) from None
     if lacking:
@@ -192,16 +184,16 @@ def _follow(processes, duration, console):
                 )
 
 
-def _evaluate(choices, folder, console):
-    """Leave summary and picture; returns in words what the bag lacks."""
+def _evaluate(choices, settling, folder, console):
+    """Leave summary and picture of a run that settles so long [s]; returns in words what the bag lacks."""
     # of a run that was reset the last epoch; its bag has the highest number
     bag = max(folder.glob("bag*"), key=lambda path: (len(path.name), path.name), default=folder / "bag")
     recording = read_recording(bag)
-    summary = {"run": asdict(choices), **summarise(analyse(recording, choices.settling))}
+    summary = {"run": asdict(choices), **summarise(analyse(recording, settling))}
     files = [folder / name for name in ("summary.json", "run.png", "summary.txt")]
     with whole_or_none(*files) as (numbers, picture, text):
         numbers.write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
-        run_picture(prepare(recording, choices.settling), choices.title, picture)
+        run_picture(prepare(recording, settling), choices.title, picture)
         with text.open("w", encoding="utf-8") as file:
             _print_summary(Terminal(file=file, width=100), summary, folder)
     _print_summary(console, summary, folder)

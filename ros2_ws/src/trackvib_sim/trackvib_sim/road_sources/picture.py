@@ -6,10 +6,12 @@ matplotlib.use("Agg")  # files only: no display is needed
 
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
+from mr_mount_controller.node_base.plain_text import plain_line  # noqa: E402
 
 from ..road.iso8608 import CLASSES, roughness_of  # noqa: E402
 from .measures import FITTED, psd, smoothed  # noqa: E402
 
+plt.rcParams["text.parse_math"] = False  # names of roads come from outside
 COLOURS = {"left": "#1f5fa8", "right": "#d1662b"}
 _MOST_DRAWN = 20_000  # samples of a profile
 
@@ -18,7 +20,7 @@ def road_picture(distance, heights, title, file):
     """Draw heights (2, n) [m] over distance (n,) [m] to a PNG file."""
     spacing = distance[1] - distance[0]
     figure, (profile, spectrum) = plt.subplots(1, 2, figsize=(13.0, 5.0), width_ratios=(1.4, 1.0), layout="constrained")
-    figure.suptitle(title, fontsize=12)
+    figure.suptitle(plain_line(title), fontsize=12)
     step = max(1, len(distance) // _MOST_DRAWN)
     frequency = np.geomspace(*FITTED, 50)
     for each in CLASSES:
