@@ -20,11 +20,12 @@ from trackvib_sim.road.feeder import RoadFeeder  # noqa: E402
 FOLDER = Path(__file__).parent
 ROADS = {"8-inch inverted V": "m47_ramp.yaml", "12-inch square bump": "m47_bump.yaml"}
 SPEED = 20.0 * 0.3048  # m/s, of 20 ft/s
-ENGINE_SPEED = 1650.0  # r/min
+ENGINE_SPEED, TRACK_PHASE = 1650.0, 0.25  # r/min, part of a pitch; as `trackvib run` has them
 BEGIN, END = 14.0, 38.0  # m, of the hull's origin; obstacles begin at 20 m
+BEYOND = 2.0  # m, of a drive beyond its end, on which the filter settles
 AHEAD = 50.0  # m of road
 GRAVITY = 9.81  # m/s^2, which sensors read at rest
-RIDE = 20.0  # Hz; above lie the blows of single links, which are not those of the obstacle
+RIDE = 10.0  # Hz; above lie the blows of single links, which are not those of the obstacle
 
 
 class Drive(NamedTuple):
@@ -35,15 +36,16 @@ class Drive(NamedTuple):
     pitch: np.ndarray  # (n,) nose up, degrees
     speed: np.ndarray  # (n,) m/s
     acceleration: np.ndarray  # (n, 2) vertical, of chassis and powertrain, m/s^2
+    ride: np.ndarray  # (n, 2) what of it lies below `RIDE`
     travel: np.ndarray  # (n, 6) of the left road wheels above static height, front to rear, mm
 
 
 def drive(vehicle, road):
     """Return the `Drive` of a vehicle over a road."""
-    settings = tv.RunSettings(tv.Operation(SPEED, ENGINE_SPEED, False), tv.Rates(), passive_current=1.0)
+    settings = tv.RunSettings(tv.Operation(SPEED, ENGINE_SPEED, False, TRACK_PHASE), tv.Rates(), passive_current=1.0)
     simulation, rows, feeder = tv.Simulation(vehicle, settings), [], RoadFeeder(road, AHEAD)
     left = simulation.system.suspension.row[: vehicle.swing_arms.stations]
-    while simulation.distance < END:
+    while simulation.distance < END + BEYOND:
         for start, spacing, heights in feeder.patches(simulation.distance):
             simulation.road.add(start, spacing, *heights)
         simulation.advance(np.ones(simulation.mounting.coils))
@@ -51,9 +53,12 @@ def drive(vehicle, road):
         _, pitch, _ = Rotation.from_quat(tree.attitude[0], scalar_first=True).as_euler("ZYX", degrees=True)
         hull = simulation.distance, 1e3 * tree.position[0, 2], -pitch, sample.hull_velocity[0, 0]
         rows.append((*hull, *(sample.specific_force[:2, 2] - GRAVITY), *wheel_rise(vehicle.swing_arms, tree.hinge[left])))
-    table = np.array([row for row in rows if row[0] >= BEGIN])
+    table = np.array(rows)
+    ride = sosfiltfilt(butter(4, RIDE, fs=simulation.settings.rates.control, output="sos"), table[:, 4:6], axis=0)
+    shown = (BEGIN <= table[:, 0]) & (table[:, 0] < END)
+    table, ride = table[shown], ride[shown]
     table[:, 1] -= table[0, 1]
-    return Drive(*table[:, :4].T, table[:, 4:6], table[:, 6:])
+    return Drive(*table[:, :4].T, table[:, 4:6], ride, table[:, 6:])
 
 
 def wheel_rise(arms, angle):
@@ -62,14 +67,9 @@ def wheel_rise(arms, angle):
     return 1e3 * arms.length * (np.sin(static) - np.sin(static - angle))
 
 
-def below(values, highest=RIDE):
-    """Return what of values (n, k), a row a millisecond, lies below a frequency [Hz]."""
-    return sosfiltfilt(butter(4, highest, fs=1000.0, output="sos"), values, axis=0)
-
-
 def told(run):
     """Return most and least of what a drive was, by its names."""
-    chassis, powertrain = below(run.acceleration).T
+    chassis, powertrain = run.ride.T
     numbers = {
         "hull's pitch, nose up, degrees": run.pitch,
         "rise of the hull's origin, mm": run.rise,
@@ -94,10 +94,9 @@ def draw(runs, stop, file):
         ground.set_ylabel("height, mm")
         hull.plot(run.distance, run.pitch, color="#3b6ea5", label="nose up")
         hull.set_ylabel("pitch, degrees")
-        smooth = below(run.acceleration)
         for k, (sensor, colour) in enumerate({"chassis": "#3b6ea5", "powertrain": "#d1662b"}.items()):
             accelerations.plot(run.distance, run.acceleration[:, k], color=colour, linewidth=0.4, alpha=0.25)
-            accelerations.plot(run.distance, smooth[:, k], color=colour, label=f"{sensor}, below {RIDE:g} Hz")
+            accelerations.plot(run.distance, run.ride[:, k], color=colour, label=f"{sensor}, below {RIDE:g} Hz")
         accelerations.set_ylabel("vertical acceleration, m/s²")
         for k, travel in enumerate(run.travel.T):
             wheels.plot(run.distance, travel, color=plt.colormaps["viridis"](k / 5), linewidth=1.0, label=f"{k + 1}")
