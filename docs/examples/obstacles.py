@@ -1,6 +1,6 @@
 """Drives the default vehicle over two obstacles of the M47's trials; prints what it does and draws obstacles.png.
 
-    ./trackvib exec -- python docs/examples/obstacles.py
+./trackvib exec -- python docs/examples/obstacles.py
 """
 
 from pathlib import Path
@@ -52,10 +52,11 @@ def drive(vehicle, road):
         tree, sample = simulation.state.tree, simulation.sample
         _, pitch, _ = Rotation.from_quat(tree.attitude[0], scalar_first=True).as_euler("ZYX", degrees=True)
         hull = simulation.distance, 1e3 * tree.position[0, 2], -pitch, sample.hull_velocity[0, 0]
-        rows.append((*hull, *(sample.specific_force[:2, 2] - GRAVITY), *wheel_rise(vehicle.swing_arms, tree.hinge[left])))
+        vertical, travel = sample.specific_force[:2, 2] - GRAVITY, wheel_rise(vehicle.swing_arms, tree.hinge[left])
+        rows.append((*hull, *vertical, *travel))
     table = np.array(rows)
     ride = sosfiltfilt(butter(4, RIDE, fs=simulation.settings.rates.control, output="sos"), table[:, 4:6], axis=0)
-    shown = (BEGIN <= table[:, 0]) & (table[:, 0] < END)
+    shown = (table[:, 0] >= BEGIN) & (table[:, 0] < END)
     table, ride = table[shown], ride[shown]
     table[:, 1] -= table[0, 1]
     return Drive(*table[:, :4].T, table[:, 4:6], ride, table[:, 6:])

@@ -7,6 +7,7 @@ import numpy as np
 from rich.table import Table
 
 from ..console import Terminal
+from ..road.profile import ProfileRoad
 from ..road_sources.crg import write_crg
 from ..road_sources.csv_profile import write_csv_profile
 from ..road_sources.measures import measures
@@ -49,20 +50,21 @@ def run_road(text, seed, length, begin, tread, csv, crg, out):
             write_crg(written[Path(crg)], road.spacing, heights, tread, float(distance[0]))
     console = Terminal()
     console.print(_table(heights, road, f"{road_in_words(text)}, {distance[0]:g} to {distance[-1]:g} m"))
-    if road.spacing < SHORTEST:
-        console.print(
-            f"samples are {road.spacing:g} m apart; what is shorter than a link, shoes bridge", soft_wrap=True
-        )
+    ground = getattr(road, "ground", road)  # under obstacles
+    taken = "interpolated linearly, " if isinstance(ground, ProfileRoad) and not ground.even else ""
+    bridged = "; what is shorter than a link, shoes bridge" if road.spacing < SHORTEST else ""
+    console.print(f"samples are {taken}{road.spacing:g} m apart{bridged}", soft_wrap=True)
     console.print(f"left: {', '.join(map(str, paths))}", soft_wrap=True)
 
 
 def _table(heights, road, title):
     table = Table("side", title=title, title_justify="left")
-    for name in ("class", "Gd(0.1 1/m), 1e-6 m³", "waviness", "IRI, m/km", "RMS, mm", "lowest, mm", "highest, mm"):
+    for name in ("class", "Gd(0.1 1/m), 1e-6 m³", "waviness", "IRI, m/km", "RMS, mm", "heights, mm"):
         table.add_column(name, justify="right")
     for side, values in zip(("left", "right"), heights, strict=True):
         found = measures(values, road.spacing)
-        numbers = 1e6 * found.level, found.waviness, found.iri, 1e3 * found.rms, 1e3 * values.min(), 1e3 * values.max()
+        numbers = 1e6 * found.level, found.waviness, found.iri, 1e3 * found.rms
         cells = (f"{number:.3g}" if np.isfinite(number) else "-" for number in numbers)
-        table.add_row(side, found.road_class or "-", *cells)
+        low, high = 1e3 * values.min(), 1e3 * values.max()
+        table.add_row(side, found.road_class or "-", *cells, f"{low:.0f} to {high:.0f}")
     return table

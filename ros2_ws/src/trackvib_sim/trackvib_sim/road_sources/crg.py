@@ -23,7 +23,7 @@ _TEXT = {"LRFI": (10, 8), "LDFI": (20, 4)}  # characters of a number, numbers of
 _BINARY = {"KRBI": ">f4", "KDBI": ">f8"}
 _BLOCK = 80  # bytes
 _MOST_CHANNELS = 10_000
-_LARGEST = 2**30  # bytes
+_LARGEST = 2**29  # bytes
 _LONGEST_HEAD = 2**20  # bytes
 _END_OF_HEAD = re.compile(rb"^\$\$\$\$[^\r\n]*\r?\n", re.MULTILINE)
 _SECTION_AT = re.compile(r"long section at v\s*=\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)", re.IGNORECASE)
@@ -78,20 +78,19 @@ def write_crg(path, increment, heights, tread, start=0.0):
 def _head(text, name):
     values, channels, kind, section = {}, [], None, ""
     for raw in text.splitlines():
-        line = raw.split("!", 1)[0].rstrip() if section != "$CT" else raw
+        line = raw.split("!", 1)[0].rstrip()
         if raw.startswith("$"):
-            section = line.strip().upper()
+            section = line.upper()
         elif section == "$ROAD_CRG_FILE":
             raise ProfileError(f"{name} only refers to another file, name that one")
         elif section == "$ROAD_CRG_MODS" and "=" in line:
             raise ProfileError(f"{name} has modifiers ($ROAD_CRG_MODS), accepted are files without; apply them before")
         elif section == "$ROAD_CRG" and "=" in line:
             key, value = line.split("=", 1)
-            try:
-                values[key.strip().lower()] = float(value)
-            except ValueError:
+            values[key.strip().lower()] = _number(value)
+            if not np.isfinite(_number(value)):
                 shown = readable(shortened(line.strip()))
-                raise ProfileError(f"{name}: {shown!r} in $ROAD_CRG, accepted is NAME = NUMBER") from None
+                raise ProfileError(f"{name}: {shown!r} in $ROAD_CRG, accepted is NAME = NUMBER")
         elif section == "$KD_DEFINITION" and line.startswith("#:"):
             kind = line[2:].strip().upper()
         elif section == "$KD_DEFINITION" and line.startswith("D:"):
@@ -105,10 +104,17 @@ def _head(text, name):
         raise ProfileError(f"{name}: data are {readable(shortened(str(kind)))}, accepted are {accepted}")
     if not 1 <= len(channels) <= _MOST_CHANNELS:
         raise ProfileError(f"{name}: {len(channels)} channels, accepted are 1 to {_MOST_CHANNELS}")
-    if not 0.0 < values.get("reference_line_increment", 0.0) < np.inf:
+    if not values.get("reference_line_increment", 0.0) > 0.0:
         given = values.get("reference_line_increment")
         raise ProfileError(f"{name}: REFERENCE_LINE_INCREMENT is {given}, accepted is a length in m")
     return _Head(values, channels, kind)
+
+
+def _number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return np.nan
 
 
 def _grid(data, head, name):
@@ -172,8 +178,8 @@ def _tracks(head, grid, tread, name):
     slope = line.get("slope", np.full(len(grid), values.get("reference_line_start_s", 0.0)))
     banking = line.get("banking", np.full(len(grid), values.get("reference_line_start_b", 0.0)))
     # the first row of a line's channel is unused: each row has what leads to it
-    rise = np.concatenate(([0.0], np.cumsum(np.nan_to_num(slope[1:]) * step)))
-    bank = np.nan_to_num(np.concatenate((banking[1:2], banking[1:])))
+    rise = np.concatenate(([0.0], np.cumsum(slope[1:] * step)))
+    bank = np.concatenate((banking[1:2], banking[1:]))
     if np.any(rise):
         heights = heights + rise
     if np.any(bank):

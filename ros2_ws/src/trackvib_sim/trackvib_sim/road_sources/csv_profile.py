@@ -19,7 +19,7 @@ from ..road.profile import MOST, ProfileError, checked
 
 UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "km": 1e3, "in": 0.0254, "ft": 0.3048}  # m
 COLUMNS = (("distance", "left", "right"), ("distance", "height"))
-_LARGEST = 2 * 2**30  # bytes
+_LARGEST = 2**30  # bytes
 _LONGEST = 10_000  # characters of a line
 
 
@@ -70,7 +70,7 @@ def _read(file, name):
         if len(numbers) > MOST * len(wanted):
             raise ProfileError(f"{name}: more than {MOST} samples")
     with np.errstate(over="ignore"):  # what is infinite is refused
-        values = np.array(numbers).reshape(-1, len(wanted)).T * np.array(factors)[:, None]
+        values = np.frombuffer(numbers).reshape(-1, len(wanted)).T * np.array(factors)[:, None]
     return checked(values[0], values[[1, -1]], name)
 
 

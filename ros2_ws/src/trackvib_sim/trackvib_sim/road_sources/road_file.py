@@ -16,7 +16,7 @@ import os
 from pathlib import Path
 from typing import Annotated, Literal
 
-from mr_mount_controller.node_base.plain_text import readable
+from mr_mount_controller.node_base.plain_text import readable, shortened
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, model_validator
 
 from ..road.iso8608 import (
@@ -182,14 +182,12 @@ def road_from_file(path, tread, start=None, reverse=False, repeat=False):
                 return recorded
             profile = recorded.profile
         else:
-            classes = ", ".join(CLASSES)
-            raise RoadError(
-                f"road {str(path)!r} is not there; accepted are a class ({classes}), .csv, .crg, .yaml or a bag"
-            )
+            accepted = f"a class ({', '.join(CLASSES)}), .csv, .crg, .yaml or a bag"
+            raise RoadError(f"road {shortened(str(path))!r} is not there; accepted are {accepted}")
     except ProfileError as error:
         raise RoadError(str(error)) from None
     except OSError as error:
-        raise RoadError(f"road {str(path)!r} cannot be read: {error.strerror or error}") from None
+        raise RoadError(f"road {shortened(str(path))!r} cannot be read: {error.strerror or error}") from None
     return ProfileRoad(profile, DEFAULT_START if start is None else start, reverse, repeat)
 
 
