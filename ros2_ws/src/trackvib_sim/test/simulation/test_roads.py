@@ -12,7 +12,7 @@ BEFORE, BEHIND = (1.0, 3.0), (12.0, 16.0)  # m, where no wheel and where every o
 
 @pytest.fixture
 def hubs(simulation, drive):
-    """A function that drives over a road and gives the mean heights of the road wheels' hubs (2, k) [m] in both parts."""
+    """A function that drives over a road and gives the mean heights of road wheels' hubs (2, k) [m] in both parts."""
 
     def measure(road):
         rolling, found = simulation(speed=SPEED), {BEFORE: [], BEHIND: []}
@@ -31,7 +31,7 @@ def hubs(simulation, drive):
 @pytest.mark.analytic
 @pytest.mark.parametrize(("side", "rises"), [("both", (HEIGHT, HEIGHT)), ("left", (HEIGHT, 0.0))])
 def test_a_step_moves_wheels_by_its_height(hubs, side, rises):
-    """Each wheel by the height, to 1 mm, on the side that has the step; on one side, tyres give a little as load moves."""
+    """Each wheel by the height, to 1 mm, on the side that has it; where only one has, tyres give as load moves."""
     road = ObstacleRoad(LevelRoad(0.05), (Step(shape="step", at=AT, height=HEIGHT, length=40.0, side=side),))
     before, behind = hubs(road)
     assert np.abs(behind - before - np.reshape(rises, (2, 1))).max() < (1e-3 if side == "both" else 2e-3)
