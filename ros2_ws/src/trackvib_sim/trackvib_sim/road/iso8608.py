@@ -57,7 +57,14 @@ class Roughness(NamedTuple):
 
 
 def roughness_of(road_class: str) -> Roughness:
-    """Return the `Roughness` of one of the standard's classes, its geometric mean."""
+    """Return the `Roughness` of one of the standard's classes, its geometric mean.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> tv.roughness_of("C").level  # m^3
+    0.000256
+    """
     return Roughness(16e-6 * 4.0 ** CLASSES.index(road_class))
 
 

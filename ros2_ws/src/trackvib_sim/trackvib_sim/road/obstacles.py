@@ -55,7 +55,14 @@ class HalfRound(_Obstacle):
 
 
 class Step(_Obstacle):
-    """A step up, and down again after its length: a square bump. Edges are one sample long."""
+    """A step up, and down again after its length: a square bump. Edges are one sample long.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> tv.Step(shape="step", at=10.0, height=0.3, length=0.3).end
+    0.3
+    """
 
     shape: Literal["step"]
     height: Wall

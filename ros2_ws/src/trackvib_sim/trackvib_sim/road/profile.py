@@ -21,7 +21,15 @@ class ProfileError(ValueError):
 
 
 class Profile(NamedTuple):
-    """Heights over distance, left and right."""
+    """Heights over distance, left and right.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import trackvib_sim as tv
+    >>> tv.Profile(np.array([0.0, 0.1]), np.zeros((2, 2))).heights.shape
+    (2, 2)
+    """
 
     distance: np.ndarray  # (n,) m, rising
     heights: np.ndarray  # (2, n) left, right, m
@@ -117,9 +125,9 @@ class ProfileRoad:
     --------
     >>> import numpy as np
     >>> import trackvib_sim as tv
-    >>> step = tv.checked_profile(np.arange(0.0, 10.0, 0.1), np.zeros((2, 100)) + (np.arange(100) > 50), "a step")
-    >>> tv.ProfileRoad(step, start=20.0).heights(first=249, count=4)[0]
-    array([0., 0., 1., 1.])
+    >>> step = tv.Profile(0.1 * np.arange(100), np.zeros((2, 100)) + (np.arange(100) > 50))
+    >>> tv.ProfileRoad(step, start=20.0).heights(first=249, count=4)[0].tolist()
+    [0.0, 0.0, 1.0, 1.0]
     """
 
     profile: Profile

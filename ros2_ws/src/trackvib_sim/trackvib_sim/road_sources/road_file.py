@@ -145,6 +145,12 @@ def find_road(text, tread, seed=1):
     ------
     RoadError
         It cannot be used.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> tv.find_road("D", tread=2.8, seed=3).spacing  # m
+    0.05
     """
     if text in CLASSES:
         return Iso8608Road(text, seed, coherence=Isotropic(tread))
