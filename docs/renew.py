@@ -84,6 +84,7 @@ class Commands:
                 words[0] = str(ROOT / "trackvib")
             folder = self._top / str(len(self._done))
             folder.mkdir()
+            (folder / "docs").symlink_to(ROOT / "docs")  # which commands name from the top of a checkout
             done = subprocess.run(words, cwd=folder, env=self._env, capture_output=True, text=True, timeout=TIME_LIMIT)
             if done.returncode:
                 raise ValueError(f"{command} ended with exit code {done.returncode}:\n{done.stdout}{done.stderr}")

@@ -1,6 +1,7 @@
 """`trackvib road` and `trackvib run --road`: what is told, drawn and written; roads of files driven by the nodes."""
 
 import json
+import os
 import subprocess
 import sys
 
@@ -43,7 +44,9 @@ def test_a_road_is_told_drawn_and_written(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["nowhere.csv"], "road 'nowhere.csv' is there not"),
+        (["nowhere.csv"], "road 'nowhere.csv' cannot be read: No such file or directory"),
+        (["C", "--csv", "road.png"], "name a file twice"),
+        (["C", "--csv", "C"], "name a file twice"),
         (["Q"], "accepted are a class (A, B, C, D, E, F, G, H)"),
         (["C", "--length", "1e5", "--out", "/proc/none/x.png"], "/proc/none"),
     ],
@@ -53,6 +56,68 @@ def test_bad_roads_end_in_one_line(tmp_path, arguments, words):
     told = trackvib("road", *arguments, code=1, cwd=tmp_path)
     assert words in told and len(told.strip().splitlines()) == 1 and told.startswith("error: ")
     assert list(tmp_path.iterdir()) == []
+
+
+BAD = {
+    "junk.csv": bytes(range(256)) * 40,
+    "junk.crg": bytes(range(256)) * 40,
+    "nul.csv": b"distance_m,height_m\n0,0\n0.1,\0\n",
+    "huge.csv": b"distance_m,height_m\n0,1e308\n0.1,-1e308\n",
+    "far.csv": b"distance_m,height_m\n-1e308,0\n1e308,0\n",
+    "escape.csv": b"distance_m,height_m\n0,\x1b[31mred\n",
+    "deep.yaml": b"[" * 10_000,
+    "alias.yaml": b"a: &a [1]\nb: *a\n",
+    "new\nline.csv": b"distance_m,height_m\n",
+}
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("verb", ["road", "run"])
+@pytest.mark.parametrize("name", [*BAD, "loop.csv", "pipe.crg", "zero.csv", "folder.yaml", "x" * 300 + ".csv"])
+def test_bad_files_end_in_one_line(tmp_path, verb, name):
+    """Under both verbs: exit code 1, no traceback, nothing raw, nothing left."""
+    (tmp_path / "here").mkdir()
+    for each, content in BAD.items():
+        (tmp_path / each).write_bytes(content)
+    (tmp_path / "loop.csv").symlink_to("loop.csv")
+    (tmp_path / "zero.csv").symlink_to("/dev/zero")
+    (tmp_path / "folder.yaml").mkdir()
+    os.mkfifo(tmp_path / "pipe.crg")
+    told = trackvib(verb, *(["--road"] if verb == "run" else []), tmp_path / name, code=1, cwd=tmp_path / "here")
+    (line,) = told.splitlines()
+    assert line.startswith("error: ") and line.isprintable()
+    assert list((tmp_path / "here").iterdir()) == []
+
+
+@pytest.mark.property
+def test_a_road_is_not_overwritten_by_itself(tmp_path):
+    """A file that is read is none to write to; files may lie in several folders."""
+    (tmp_path / "mine.yaml").write_text(ROAD)
+    assert "twice" in trackvib("road", "mine.yaml", "--csv", tmp_path / "mine.yaml", code=1, cwd=tmp_path)
+    assert (tmp_path / "mine.yaml").read_text() == ROAD
+    (tmp_path / "other").mkdir()
+    trackvib("road", "mine.yaml", "--length", 50, "--csv", "other/a", "--out", "a", cwd=tmp_path)
+    assert (tmp_path / "a").read_bytes().startswith(b"\x89PNG") and (tmp_path / "other" / "a").read_text().startswith(
+        "d"
+    )
+
+
+@pytest.mark.slow(reason="a whole run")
+@pytest.mark.property
+def test_a_bags_road_lies_where_it_was_or_elsewhere(recorded_run, tmp_path):
+    """As it was recorded; or begun elsewhere, reversed, repeated, as a file's profile is."""
+    recorded, text = find_road(str(recorded_run / "bag"), 2.8), f"file: {recorded_run / 'bag'}"
+    expected = Iso8608Road("E", 1).heights(0, 600)
+    np.testing.assert_array_equal(recorded.heights(0, 600), expected)
+    count = recorded.samples.shape[1]
+    for options, samples in (("start: 5", recorded.samples), ("start: 5, reverse: true", recorded.samples[:, ::-1])):
+        (tmp_path / "bag.yaml").write_text(f"ground: {{{text}, {options}}}\n")
+        np.testing.assert_array_equal(
+            find_road(str(tmp_path / "bag.yaml"), 2.8).heights(100, count), samples - samples[:, :1]
+        )
+    (tmp_path / "bag.yaml").write_text(f"ground: {{{text}, repeat: true}}\n")
+    road = find_road(str(tmp_path / "bag.yaml"), 2.8)
+    np.testing.assert_array_equal(road.heights(200, count - 1), road.heights(199 + count, count - 1))
 
 
 @pytest.mark.slow(reason="runs four nodes")

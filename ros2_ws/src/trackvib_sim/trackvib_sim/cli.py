@@ -13,7 +13,7 @@ from .commands.bag_cli import bag
 from .commands.endings import fail, say
 from .commands.lasting_output import OutputLost, lasting_output
 from .commands.mount_cli import mount
-from .commands.option_types import INTERRUPTED, FiniteRange, known_law, known_road, vehicle_option
+from .commands.option_types import INTERRUPTED, FiniteRange, known_law, vehicle_option
 from .commands.replay_cli import replay
 from .commands.road_cli import road
 from .commands.study_cli import study
@@ -69,7 +69,6 @@ def _interrupt():
     "--road",
     default="E",
     show_default=True,
-    callback=known_road,
     metavar="CLASS|FILE",
     help="Class by ISO 8608, A to H, or a file: profile (CSV), OpenCRG, road file (YAML), or a bag.",
 )

@@ -3,12 +3,11 @@
 One loader for all: vehicle files, calibration plans, a bag's metadata and what its topics declare.
 """
 
-import os
-from stat import S_ISREG
-
 import yaml
 from mr_mount_controller.node_base.plain_text import readable, shortened
 from pydantic import ValidationError
+
+from .ordinary_file import open_ordinary
 
 LARGEST = 1 << 20  # bytes of a text
 DEEPEST = 50  # levels
@@ -31,17 +30,9 @@ def read_text(path, what="file"):
     """
     name = f"{what} {str(path)!r}"
     try:
-        # a pipe that nobody writes to must not hold us up
-        with open(os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), "rb") as file:
-            if not S_ISREG(os.fstat(file.fileno()).st_mode):
-                raise YamlTextError(f"{name} cannot be read: it is no ordinary file")
-            data = file.read(LARGEST + 1)
-        if len(data) > LARGEST:
-            raise YamlTextError(f"{name} cannot be read: it has more than {LARGEST} bytes")
-        return data.decode()
-    except (OSError, UnicodeDecodeError, ValueError) as error:
-        if isinstance(error, YamlTextError):
-            raise
+        with open_ordinary(path, LARGEST) as file:
+            return file.read(LARGEST).decode()  # no more: some files of the system do not tell their size
+    except (OSError, UnicodeDecodeError) as error:
         raise YamlTextError(f"{name} cannot be read: {getattr(error, 'strerror', None) or error}") from None
 
 

@@ -33,6 +33,24 @@ def test_uneven_samples_are_interpolated():
     assert_allclose(road.heights(0, 15), [0.1 * place, -0.2 * place], atol=1e-12)
 
 
+@pytest.mark.property
+@given(count=st.integers(3, 20_000), odd=st.integers(1, 10_000), shift=st.floats(0.01, 0.9))
+def test_one_sample_off_its_place_is_uneven(count, odd, shift):
+    """However long the profile is; the other samples are where they were."""
+    distance = 0.05 * np.arange(count)
+    distance[1 + odd % (count - 2)] += 0.05 * shift
+    road = ProfileRoad(checked(distance, np.zeros((2, count)), "mine"))
+    assert not road.even and road.spacing == pytest.approx(0.05 * (1.0 - shift))
+
+
+@pytest.mark.property
+def test_a_wall_is_ground():
+    """A face of 1 m over a millimetre, as a vehicle may climb it; the same as a step of that height."""
+    distance = 1e-3 * np.arange(4000)
+    heights = np.tile(np.where(distance > 2.0, 1.0, 0.0), (2, 1))
+    assert_array_equal(checked(distance, heights, "wall").heights, heights)
+
+
 @pytest.mark.analytic
 def test_samples_closer_than_a_millimetre_are_thinned():
     """No road has finer samples than its patches may have."""
@@ -70,6 +88,18 @@ def test_repeated_it_has_no_joint():
         ([0.0, 0.5, 0.5], [[0.0] * 3] * 2, "from 0.5 to 0.5 m at sample 3"),
         ([0.0, 0.5, 3.0], [[0.0] * 3] * 2, "a gap of 2.5 m from 0.5 m on, accepted are up to 1 m"),
         ([0.0, 0.5], [[0.0, 0.0], [0.0, 2000.0]], "right is 2000 m high"),
+        (
+            0.05 * np.arange(40),
+            np.tile([0.0, 0.3], (2, 20)),
+            "left goes up and down by 6 m per metre.*is the unit right",
+        ),
+        (
+            np.append(np.arange(30_000.0), 29_999.001),
+            np.zeros((2, 30_001)),
+            "are 29999002 samples at the least distance",
+        ),
+        ([0.0, 1e-9], [[0.0, 0.0]] * 2, "are 1 samples at the least distance"),
+        ([-1e308, 1e308], [[0.0, 0.0]] * 2, "a gap of inf m"),
         ([0.0, 0.1], [[0.0, 50.0], [0.0, 0.0]], "left rises by 50 m from 0 m on over 0.1 m.*is the unit right?"),
     ],
 )

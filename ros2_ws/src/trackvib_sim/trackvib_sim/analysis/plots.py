@@ -18,7 +18,7 @@ LOWEST_FREQUENCY = 1.0  # Hz, where the spectrum starts
 def run_picture(prepared, title, path):
     """Draw time histories of three axes and the vertical PSD of both sensors to a PNG file."""
     figure = plt.figure(figsize=(13, 7.5), layout="constrained")
-    figure.suptitle(title, fontsize=11)
+    figure.suptitle(title, fontsize=11, parse_math=False)  # names of roads and laws come from outside
     histories, spectrum = figure.subfigures(1, 2, width_ratios=(1.25, 1.0))
     _histories(histories, prepared)
     _spectrum(spectrum.subplots(), prepared)

@@ -11,8 +11,6 @@ from .numbers import SENSORS
 from .plots import LOWEST_FREQUENCY, NAMES  # noqa: E402
 from .vibration import psd  # noqa: E402
 
-plt.rcParams["text.parse_math"] = False  # names of bags and laws come from outside
-
 COLOURS = ("#6b7785", "#c2410c")  # recorded, replayed
 COIL_COLOURS = ("#1d5fa8", "#c98a00", "#2f7f3f", "#a03f8f")
 _DASHES = ("-", "--", ":", "-.")
@@ -88,9 +86,11 @@ def _parts(values, width):
 
 
 def _finish(figure, title, legend_of, path):
-    figure.suptitle(title, fontsize=11)
+    figure.suptitle(title, fontsize=11, parse_math=False)
     for plot in figure.get_axes():
         plot.grid(alpha=0.3)
-    figure.legend(*legend_of.get_legend_handles_labels(), loc="outside upper right", ncols=3, fontsize=9)
+    legend = figure.legend(*legend_of.get_legend_handles_labels(), loc="outside upper right", ncols=3, fontsize=9)
+    for text in legend.get_texts():
+        text.set_parse_math(False)  # names of bags, laws and mounts come from outside
     figure.savefig(path, dpi=110)
     plt.close(figure)

@@ -1,7 +1,6 @@
 """What the verbs' command lines share: types of options, exit codes."""
 
 from math import isfinite
-from pathlib import Path
 
 import click
 from mr_mount_controller.laws import find_law
@@ -9,7 +8,6 @@ from mr_mount_controller.node_base.parameters import ParameterError
 
 from ..bags.limits import LARGEST_CHUNKS, largest_chunk
 from ..data import DEFAULT_VEHICLE
-from ..road.iso8608 import CLASSES
 
 INTERRUPTED = 130  # exit code of what Ctrl-C has ended, as shells give it
 
@@ -58,15 +56,6 @@ vehicle_option = click.option(
     metavar="NAME|FILE",
     help=f"Vehicle that comes with the package, or a vehicle file.  [default: {DEFAULT_VEHICLE}]",
 )
-
-
-def known_road(_context, _parameter, value):
-    """Callback of an option that names a road: refuse what is neither a class nor there."""
-    if value not in CLASSES and not Path(value).exists():
-        raise click.BadParameter(
-            f"{value!r} is neither a class ({', '.join(CLASSES)}) nor a file (.csv, .crg, .yaml) or bag that is there"
-        )
-    return value
 
 
 def known_law(_context, _parameter, value):

@@ -1,11 +1,13 @@
 """`trackvib road`: what a road is like, as a table and a picture, and written as a file."""
 
+from contextlib import ExitStack
 from pathlib import Path
 
 import numpy as np
 from rich.table import Table
 
 from ..console import Terminal
+from ..road.profile import ProfileRoad
 from ..road_sources.crg import write_crg
 from ..road_sources.csv_profile import write_csv_profile
 from ..road_sources.measures import measures
@@ -37,8 +39,10 @@ def run_road(text, seed, length, begin, tread, csv, crg, out):
     heights = road.heights(first, count)
     distance = road.spacing * np.arange(first, first + count)
     paths = [Path(path) for path in (out, csv, crg) if path is not None]
-    with whole_or_none(*paths) as files:
-        written = dict(zip(paths, files, strict=True))
+    if len({path.resolve() for path in (*paths, Path(text))}) <= len(paths):
+        raise ValueError("the road, --out, --csv and --crg name a file twice, accepted are different ones")
+    with ExitStack() as drafts:
+        written = {path: drafts.enter_context(whole_or_none(path))[0] for path in paths}
         road_picture(distance, heights, f"{road_in_words(text)}, {length:g} m", written[Path(out)])
         if csv is not None:
             write_csv_profile(written[Path(csv)], distance, heights)
@@ -46,20 +50,21 @@ def run_road(text, seed, length, begin, tread, csv, crg, out):
             write_crg(written[Path(crg)], road.spacing, heights, tread, float(distance[0]))
     console = Terminal()
     console.print(_table(heights, road, f"{road_in_words(text)}, {distance[0]:g} to {distance[-1]:g} m"))
-    if road.spacing < SHORTEST:
-        console.print(
-            f"samples are {road.spacing:g} m apart; what is shorter than a link, shoes bridge", soft_wrap=True
-        )
+    ground = getattr(road, "ground", road)  # under obstacles
+    taken = "interpolated linearly, " if isinstance(ground, ProfileRoad) and not ground.even else ""
+    bridged = "; what is shorter than a link, shoes bridge" if road.spacing < SHORTEST else ""
+    console.print(f"samples are {taken}{road.spacing:g} m apart{bridged}", soft_wrap=True)
     console.print(f"left: {', '.join(map(str, paths))}", soft_wrap=True)
 
 
 def _table(heights, road, title):
     table = Table("side", title=title, title_justify="left")
-    for name in ("class", "Gd(0.1 1/m), 1e-6 m³", "waviness", "IRI, m/km", "RMS, mm", "lowest, mm", "highest, mm"):
+    for name in ("class", "Gd(0.1 1/m), 1e-6 m³", "waviness", "IRI, m/km", "RMS, mm", "heights, mm"):
         table.add_column(name, justify="right")
     for side, values in zip(("left", "right"), heights, strict=True):
         found = measures(values, road.spacing)
-        numbers = 1e6 * found.level, found.waviness, found.iri, 1e3 * found.rms, 1e3 * values.min(), 1e3 * values.max()
+        numbers = 1e6 * found.level, found.waviness, found.iri, 1e3 * found.rms
         cells = (f"{number:.3g}" if np.isfinite(number) else "-" for number in numbers)
-        table.add_row(side, found.road_class or "-", *cells)
+        low, high = 1e3 * values.min(), 1e3 * values.max()
+        table.add_row(side, found.road_class or "-", *cells, f"{low:.0f} to {high:.0f}")
     return table

@@ -19,7 +19,7 @@ from .option_types import FiniteRange
     help="Where it begins, in m.  [default: where the road does]",
 )
 @click.option(
-    "--tread", type=FiniteRange(0.0, 10.0), default=2.8, show_default=True, help="Distance between the tracks in m."
+    "--tread", type=FiniteRange(0.1, 10.0), default=2.8, show_default=True, help="Distance between the tracks in m."
 )
 @click.option(
     "--csv", type=click.Path(dir_okay=False), default=None, help="Write the heights that are looked at to this file."

@@ -27,7 +27,6 @@ from ..console import Description, Terminal
 from ..data import find_vehicle
 from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses, closed_loop_parameters
 from ..nodes.watch import Watch
-from ..road.iso8608 import TREAD
 from ..road_sources.road_file import RoadError, find_road, road_in_words, whole_name
 from ..vehicle.drive.drive_file import DriveFileError, drive_text, parse_drive
 from ..vehicle.drive.schedule import arrival_time
@@ -56,15 +55,6 @@ class Choices:
     one_process: bool
 
     @property
-    def settling(self):
-        """How long the run settles [s]: until all of the vehicle is on the road proper."""
-        begins = find_road(self.road, TREAD).begins
-        if self.drive is None:
-            return settling_time(self.speed, begins)
-        schedule = parse_drive(drive_text(self.drive), 0.0, self.drive)
-        return max(arrival_time(schedule, begins + VEHICLE_BEHIND), SHORTEST_SETTLING)
-
-    @property
     def title(self):
         """The run in words."""
         vehicle = f"vehicle {self.vehicle}, " if self.vehicle else ""
@@ -84,21 +74,19 @@ def run_loop(choices, out):
     KeyboardInterrupt
         After the nodes have ended in order and what there is has been summarised.
     """
-    try:
-        needed = choices.settling + SHORTEST_MEASURING
-    except (RoadError, DriveFileError) as error:
-        raise CommandError(str(error)) from None
-    if choices.duration < needed:
-        how = f"at {choices.speed:g} m/s" if choices.drive is None else f"with drive {choices.drive}"
-        raise CommandError(
-            f"--duration is {choices.duration:g} s, must be at least {needed:.1f} s {how}: {choices.settling:.1f} s to "
-            f"settle and {SHORTEST_MEASURING:g} s to measure"
-        )
     console, path = Terminal(), find_vehicle(choices.vehicle).absolute()
     try:
         vehicle, _ = read_vehicle(path)
-    except VehicleFileError as error:
+        tread = 2.0 * vehicle.road_wheels.y
+        settling = _settling(choices, find_road(choices.road, tread).begins)
+    except (RoadError, DriveFileError, VehicleFileError) as error:
         raise CommandError(str(error)) from None
+    if choices.duration < settling + SHORTEST_MEASURING:
+        how = f"at {choices.speed:g} m/s" if choices.drive is None else f"with drive {choices.drive}"
+        raise CommandError(
+            f"--duration is {choices.duration:g} s, must be at least {settling + SHORTEST_MEASURING:.1f} s {how}: "
+            f"{settling:.1f} s to settle and {SHORTEST_MEASURING:g} s to measure"
+        )
     with own_domain():
         name = f"{datetime.now():%Y%m%dT%H%M%S}_{_short(choices.road)}_{_pace(choices)}"
         folder = make_folder(out or Path("runs") / name)
@@ -108,15 +96,23 @@ def run_loop(choices, out):
         recommended = recommended_rate(vehicle)
         if choices.physics_rate < recommended:
             console.print(f"warning: --physics-rate {choices.physics_rate} is below the recommended {recommended} Hz")
-        interrupt = _run_nodes(choices, path, 2.0 * vehicle.road_wheels.y, folder, console)
+        interrupt = _run_nodes(choices, path, tread, folder, console)
     try:
-        lacking = _evaluate(choices, folder, console)
+        lacking = _evaluate(choices, settling, folder, console)
     except (BagError, ValueError) as error:
         raise interrupt or CommandError(str(error)) from None
     if lacking:
         raise CommandError(f"the bag in {str(folder)!r} is not complete, it lacks {', '.join(lacking)}") from interrupt
     if interrupt is not None:
         raise interrupt
+
+
+def _settling(choices, begins):
+    """How long a run settles [s]: until all of the vehicle is on the road proper, which begins at a distance [m]."""
+    if choices.drive is None:
+        return settling_time(choices.speed, begins)
+    schedule = parse_drive(drive_text(choices.drive), 0.0, choices.drive)
+    return max(arrival_time(schedule, begins + VEHICLE_BEHIND), SHORTEST_SETTLING)
 
 
 @contextmanager
@@ -204,16 +200,16 @@ def _follow(processes, duration, console):
                 )
 
 
-def _evaluate(choices, folder, console):
-    """Leave summary and picture; returns in words what the bag lacks."""
+def _evaluate(choices, settling, folder, console):
+    """Leave summary and picture of a run that settles so long [s]; returns in words what the bag lacks."""
     # of a run that was reset the last epoch; its bag has the highest number
     bag = max(folder.glob("bag*"), key=lambda path: (len(path.name), path.name), default=folder / "bag")
     recording = read_recording(bag)
-    summary = {"run": asdict(choices), **summarise(analyse(recording, choices.settling))}
+    summary = {"run": asdict(choices), **summarise(analyse(recording, settling))}
     files = [folder / name for name in ("summary.json", "run.png", "summary.txt")]
     with whole_or_none(*files) as (numbers, picture, text):
         numbers.write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
-        run_picture(prepare(recording, choices.settling), choices.title, picture)
+        run_picture(prepare(recording, settling), choices.title, picture)
         with text.open("w", encoding="utf-8") as file:
             _print_summary(Terminal(file=file, width=100), summary, folder)
     _print_summary(console, summary, folder)

@@ -49,9 +49,22 @@ class Roughness(NamedTuple):
         """Return the one-sided PSD [m^3] at spatial frequencies [1/m]."""
         return self.level * (np.asarray(frequency) / REFERENCE_FREQUENCY) ** -self.waviness
 
+    @property
+    def rms(self) -> float:
+        """RMS value of the heights [m]."""
+        edges = np.geomspace(self.lowest, self.highest, HARMONICS + 1)
+        return float(np.sqrt(np.sum(self.psd(np.sqrt(edges[:-1] * edges[1:])) * np.diff(edges))))
+
 
 def roughness_of(road_class: str) -> Roughness:
-    """Return the `Roughness` of one of the standard's classes, its geometric mean."""
+    """Return the `Roughness` of one of the standard's classes, its geometric mean.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> tv.roughness_of("C").level  # m^3
+    0.000256
+    """
     return Roughness(16e-6 * 4.0 ** CLASSES.index(road_class))
 
 

@@ -14,11 +14,14 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
+from .profile import HIGHEST_WALL
+
 FINE = 0.01  # m between samples of a road with obstacles
 
 Place = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]  # m
 Size = Annotated[float, Field(gt=0.0, le=1000.0, allow_inf_nan=False)]  # m
 Height = Annotated[float, Field(gt=0.0, le=3.0, allow_inf_nan=False)]  # m
+Wall = Annotated[float, Field(gt=0.0, le=HIGHEST_WALL, allow_inf_nan=False)]  # m
 
 
 class _Obstacle(BaseModel):
@@ -52,10 +55,17 @@ class HalfRound(_Obstacle):
 
 
 class Step(_Obstacle):
-    """A step up, and down again after its length: a square bump. Edges are one sample long."""
+    """A step up, and down again after its length: a square bump. Edges are one sample long.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> tv.Step(shape="step", at=10.0, height=0.3, length=0.3).end
+    0.3
+    """
 
     shape: Literal["step"]
-    height: Height
+    height: Wall
     length: Size
 
     @property

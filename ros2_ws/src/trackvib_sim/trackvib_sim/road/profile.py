@@ -8,9 +8,12 @@ import numpy as np
 
 FINEST, COARSEST = 1e-3, 1.0  # m between samples of a road
 MOST = 20_000_000  # samples of a profile
-STEEPEST = 20.0  # m/m, of a step over one sample; more is no ground
+STEEPEST = 20.0  # m/m; what rises more steeply is a wall
+HIGHEST_WALL = 1.2  # m, about what the best of battle tanks climb
+ROUGHEST = 2.0  # m up and down per metre of way; class H has 0.4, class A with its millimetres taken for metres 3
 HIGHEST = 1000.0  # m
-_EVEN = 1e-6  # of the spacing: steps that differ by less are even
+_ROUNDING = 1e-9  # of distances
+_EVEN = 1e-3  # of the spacing: samples that are less far from their places are even
 
 
 class ProfileError(ValueError):
@@ -18,7 +21,15 @@ class ProfileError(ValueError):
 
 
 class Profile(NamedTuple):
-    """Heights over distance, left and right."""
+    """Heights over distance, left and right.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import trackvib_sim as tv
+    >>> tv.Profile(np.array([0.0, 0.1]), np.zeros((2, 2))).heights.shape
+    (2, 2)
+    """
 
     distance: np.ndarray  # (n,) m, rising
     heights: np.ndarray  # (2, n) left, right, m
@@ -30,41 +41,76 @@ def checked(distance, heights, name):
     Raises
     ------
     ProfileError
-        Something is not finite, out of order, out of range or too steep.
+        Something is not finite, out of order, out of range, too steep, or needs too many samples.
     """
     distance, heights = np.asarray(distance, dtype=float), np.asarray(heights, dtype=float)
-    count = len(distance)
-    if not 2 <= count <= MOST:
-        raise ProfileError(f"{name}: {count} samples, accepted are 2 to {MOST}")
-    for what, values in (("distance", distance), ("left height", heights[0]), ("right height", heights[1])):
+    if not 2 <= len(distance) <= MOST:
+        raise ProfileError(f"{name}: {len(distance)} samples, accepted are 2 to {MOST}")
+    sides = ("left", heights[0]), ("right", heights[1])
+    for what, values in (("distance", distance), *((f"{side} height", values) for side, values in sides)):
         odd = np.flatnonzero(~np.isfinite(values))
         if odd.size:
             raise ProfileError(
                 f"{name}: {what} of sample {odd[0] + 1} is {values[odd[0]]}, accepted are finite numbers"
             )
-    step = np.diff(distance)
+    with np.errstate(over="ignore"):  # infinite is too far as well
+        step = np.diff(distance)
+    _require_order(distance, step, name)
+    for side, values in sides:
+        _require_ground(distance, step, values, f"{name}: {side}")
+    spacing, _ = _grid(distance)
+    count = (distance[-1] - distance[0]) / spacing + 1.0
+    if not 2.0 <= count <= MOST + 1.0:
+        raise ProfileError(
+            f"{name}: {distance[-1] - distance[0]:g} m are {count:.0f} samples at the least distance between them, "
+            f"{spacing:g} m; accepted are 2 to {MOST}"
+        )
+    return Profile(distance, heights)
+
+
+def _require_order(distance, step, name):
     odd = np.flatnonzero(step <= 0.0)
     if odd.size:
         k = odd[0]
         raise ProfileError(
             f"{name}: distance goes from {distance[k]:g} to {distance[k + 1]:g} m at sample {k + 2}, must rise"
         )
-    if step.max() > COARSEST:
+    if step.max() > COARSEST * (1.0 + _ROUNDING):
         k = step.argmax()
         raise ProfileError(
             f"{name}: a gap of {step[k]:g} m from {distance[k]:g} m on, accepted are up to {COARSEST:g} m"
         )
-    for side, values in zip(("left", "right"), heights, strict=True):
-        if np.abs(values).max() > HIGHEST:
-            raise ProfileError(f"{name}: {side} is {values[np.abs(values).argmax()]:g} m high, accepted: {HIGHEST:g} m")
-        slope = np.abs(np.diff(values)) / np.maximum(step, FINEST)
-        if slope.max() > STEEPEST:
-            k = slope.argmax()
-            raise ProfileError(
-                f"{name}: {side} rises by {values[k + 1] - values[k]:g} m from {distance[k]:g} m on "
-                f"over {step[k]:g} m, accepted are {STEEPEST:g} m/m; is the unit right?"
-            )
-    return Profile(distance, heights)
+
+
+def _require_ground(distance, step, values, side):
+    """Refuse heights of one side that no ground has; in a wrong unit, most likely."""
+    if np.abs(values).max() > HIGHEST:
+        raise ProfileError(f"{side} is {values[np.abs(values).argmax()]:g} m high, accepted: {HIGHEST:g} m")
+    rise = np.abs(np.diff(values))
+    wall = np.where(rise > STEEPEST * step, rise, 0.0)
+    if wall.max() > HIGHEST_WALL:
+        k = wall.argmax()
+        raise ProfileError(
+            f"{side} rises by {values[k + 1] - values[k]:g} m from {distance[k]:g} m on over {step[k]:g} m, "
+            f"accepted are {HIGHEST_WALL:g} m, or {STEEPEST:g} m/m; is the unit right?"
+        )
+    roughness = rise.sum() / max(distance[-1] - distance[0], COARSEST)
+    if roughness > ROUGHEST:
+        raise ProfileError(
+            f"{side} goes up and down by {roughness:.3g} m per metre of way, accepted are {ROUGHEST:g}; "
+            "is the unit right?"
+        )
+
+
+def _grid(distance):
+    """Return the distance [m] between a road's samples, and whether those of the profile lie there already."""
+    step, count = np.diff(distance), len(distance)
+    mean = (distance[-1] - distance[0]) / (count - 1)
+    off = np.abs(distance - distance[0] - mean * np.arange(count)).max()
+    if mean >= FINEST * (1.0 - _ROUNDING) and off <= _EVEN * mean:
+        # of one number rather than of a difference, so that a file read back has the spacing it was written with
+        return float(f"{mean:.9g}"), True
+    return float(max(step.min(), FINEST)), False
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,9 +125,9 @@ class ProfileRoad:
     --------
     >>> import numpy as np
     >>> import trackvib_sim as tv
-    >>> step = tv.checked_profile(np.arange(0.0, 10.0, 0.1), np.zeros((2, 100)) + (np.arange(100) > 50), "a step")
-    >>> tv.ProfileRoad(step, start=20.0).heights(first=249, count=4)[0]
-    array([0., 0., 1., 1.])
+    >>> step = tv.Profile(0.1 * np.arange(100), np.zeros((2, 100)) + (np.arange(100) > 50))
+    >>> tv.ProfileRoad(step, start=20.0).heights(first=249, count=4)[0].tolist()
+    [0.0, 0.0, 1.0, 1.0]
     """
 
     profile: Profile
@@ -99,20 +145,19 @@ class ProfileRoad:
         """Distance at which it ends [m]; infinite where it is repeated."""
         return np.inf if self.repeat else self.start + self.spacing * (self._samples.shape[1] - 1)
 
-    @cached_property
-    def even(self) -> bool:
-        """Whether the samples are taken as they are."""
-        step = np.diff(self.profile.distance)
-        return bool(step.min() >= FINEST and np.ptp(step) <= _EVEN * step.mean() * len(step))
-
-    @cached_property
+    @property
     def spacing(self) -> float:
         """Distance between the road's samples [m]."""
-        distance = self.profile.distance
-        if self.even:
-            # of one number rather than of a difference, so that a file read back has the spacing it was written with
-            return float(f"{(distance[-1] - distance[0]) / (len(distance) - 1):.9g}")
-        return float(max(np.diff(distance).min(), FINEST))
+        return self._grid[0]
+
+    @property
+    def even(self) -> bool:
+        """Whether the samples are taken as they are."""
+        return self._grid[1]
+
+    @cached_property
+    def _grid(self):
+        return _grid(self.profile.distance)
 
     @cached_property
     def _samples(self):

@@ -8,12 +8,14 @@ or 20 characters (LRFI, LDFI) and binary ones of 4 or 8 bytes, big-endian (KRBI,
 """
 
 import re
+from array import array
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from mr_mount_controller.node_base.plain_text import readable, shortened
 
+from ..ordinary_file import open_ordinary
 from ..road.profile import MOST, ProfileError, checked
 
 STRAIGHT = 0.005  # rad; a heading that changes by more is a curve
@@ -21,10 +23,10 @@ _TEXT = {"LRFI": (10, 8), "LDFI": (20, 4)}  # characters of a number, numbers of
 _BINARY = {"KRBI": ">f4", "KDBI": ">f8"}
 _BLOCK = 80  # bytes
 _MOST_CHANNELS = 10_000
-_LARGEST = 4 * 2**30  # bytes
+_LARGEST = 2**29  # bytes
 _LONGEST_HEAD = 2**20  # bytes
 _END_OF_HEAD = re.compile(rb"^\$\$\$\$[^\r\n]*\r?\n", re.MULTILINE)
-_SECTION_AT = re.compile(r"long section at v\s*=\s*([-+.\deE]+)", re.IGNORECASE)
+_SECTION_AT = re.compile(r"long section at v\s*=\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)", re.IGNORECASE)
 
 
 class _Head(NamedTuple):
@@ -43,16 +45,16 @@ def read_crg(path, tread):
     OSError
         It cannot be read.
     """
-    path = Path(path)
-    if path.stat().st_size > _LARGEST:
-        raise ProfileError(f"{path}: {path.stat().st_size} bytes, accepted are {_LARGEST}")
-    data = path.read_bytes()
-    end = _END_OF_HEAD.search(data, 0, _LONGEST_HEAD)
-    if end is None:
-        raise ProfileError(f"{path} is no OpenCRG file: no line $$$$ ends its head")
-    head = _head(data[: end.start()].decode("latin-1"), str(path))
-    grid = _grid(data[end.end() :], head, str(path))
-    return _tracks(head, grid, tread, str(path))
+    name = readable(str(path))
+    with open_ordinary(path, _LARGEST) as file:
+        end = _END_OF_HEAD.search(file.read(_LONGEST_HEAD))
+        if end is None:
+            raise ProfileError(f"{name} is no OpenCRG file: no line $$$$ ends its head")
+        head = _head(end.string[: end.start()].decode("latin-1"), name)
+        file.seek(end.end())
+        grid = _grid(file.read(), head, name)
+    with np.errstate(all="ignore"):  # what is not finite is refused
+        return _tracks(head, grid, tread, name)
 
 
 def write_crg(path, increment, heights, tread, start=0.0):
@@ -76,31 +78,43 @@ def write_crg(path, increment, heights, tread, start=0.0):
 def _head(text, name):
     values, channels, kind, section = {}, [], None, ""
     for raw in text.splitlines():
-        line = raw.split("!", 1)[0].rstrip() if section != "$CT" else raw
+        line = raw.split("!", 1)[0].rstrip()
         if raw.startswith("$"):
-            section = line.strip().upper()
+            section = line.upper()
         elif section == "$ROAD_CRG_FILE":
             raise ProfileError(f"{name} only refers to another file, name that one")
+        elif section == "$ROAD_CRG_MODS" and "=" in line:
+            raise ProfileError(f"{name} has modifiers ($ROAD_CRG_MODS), accepted are files without; apply them before")
         elif section == "$ROAD_CRG" and "=" in line:
             key, value = line.split("=", 1)
-            try:
-                values[key.strip().lower()] = float(value)
-            except ValueError:
+            values[key.strip().lower()] = _number(value)
+            if not np.isfinite(_number(value)):
                 shown = readable(shortened(line.strip()))
-                raise ProfileError(f"{name}: {shown!r} in $ROAD_CRG, accepted is NAME = NUMBER") from None
+                raise ProfileError(f"{name}: {shown!r} in $ROAD_CRG, accepted is NAME = NUMBER")
         elif section == "$KD_DEFINITION" and line.startswith("#:"):
             kind = line[2:].strip().upper()
         elif section == "$KD_DEFINITION" and line.startswith("D:"):
-            channels.append(line[2:].rsplit(",", 1)[0].strip().lower())
+            channel, _, unit = (part.strip().lower() for part in line[2:].rpartition(","))
+            if channel.startswith("long section") and unit != "m":
+                shown = readable(shortened(line[2:].strip()))
+                raise ProfileError(f"{name}: channel {shown!r}, accepted are heights in m")
+            channels.append(channel)
     if kind not in (*_TEXT, *_BINARY):
         accepted = ", ".join((*_TEXT, *_BINARY))
         raise ProfileError(f"{name}: data are {readable(shortened(str(kind)))}, accepted are {accepted}")
     if not 1 <= len(channels) <= _MOST_CHANNELS:
         raise ProfileError(f"{name}: {len(channels)} channels, accepted are 1 to {_MOST_CHANNELS}")
-    if not 0.0 < values.get("reference_line_increment", 0.0) < np.inf:
+    if not values.get("reference_line_increment", 0.0) > 0.0:
         given = values.get("reference_line_increment")
         raise ProfileError(f"{name}: REFERENCE_LINE_INCREMENT is {given}, accepted is a length in m")
     return _Head(values, channels, kind)
+
+
+def _number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return np.nan
 
 
 def _grid(data, head, name):
@@ -108,28 +122,26 @@ def _grid(data, head, name):
     count = len(head.channels)
     if head.kind in _BINARY:
         kind = np.dtype(_BINARY[head.kind])
-        with np.errstate(invalid="ignore"):  # of damaged numbers
-            numbers = np.frombuffer(data[: len(data) // kind.itemsize * kind.itemsize], kind).astype(float)
-        whole = len(numbers) // count
-        rest = numbers[whole * count :]
-        if not np.isnan(rest).all():
+        numbers = np.frombuffer(data, kind, len(data) // kind.itemsize)
+        whole = len(numbers) // count * count
+        if not np.isnan(numbers[whole:]).all():
             raise ProfileError(f"{name} is cut short: {len(numbers)} numbers are no whole rows of {count}")
-        grid = numbers[: whole * count].reshape(-1, count)
-        while len(grid) and np.isnan(grid[-1]).all():  # rows of nothing but padding
-            grid = grid[:-1]
+        grid = numbers[:whole].reshape(-1, count)
+        told = np.flatnonzero(~np.isnan(grid).all(axis=1))
+        grid = grid[: told[-1] + 1 if told.size else 0]  # without rows of nothing but padding
     else:
-        grid = _text_grid(data.decode("latin-1"), count, *_TEXT[head.kind], name)
+        grid = _text_grid(data, count, *_TEXT[head.kind], name)
     if not 2 <= len(grid) <= MOST:
         raise ProfileError(f"{name}: {len(grid)} rows, accepted are 2 to {MOST}")
     return grid
 
 
-def _text_grid(text, count, width, on_line, name):
-    lines = [line for line in text.splitlines() if line.strip() and not line.startswith(("* ", "$"))]
+def _text_grid(data, count, width, on_line, name):
+    lines = [line for line in data.splitlines() if line.strip() and not line.startswith((b"* ", b"$"))]
     deep = -(-count // on_line)
     if len(lines) % deep:
         raise ProfileError(f"{name} is cut short: {len(lines)} lines are no whole rows of {deep}")
-    rows = []
+    numbers = array("d")
     for first in range(0, len(lines), deep):
         cells = []
         for line in lines[first : first + deep]:
@@ -137,17 +149,17 @@ def _text_grid(text, count, width, on_line, name):
         if len(cells) != count:
             raise ProfileError(f"{name}: row {first // deep + 1} has {len(cells)} numbers, must have {count}")
         try:
-            rows.append([np.nan if cell.strip().startswith("*") else float(cell) for cell in cells])
+            numbers.extend([np.nan if cell.lstrip().startswith(b"*") else float(cell) for cell in cells])
         except ValueError:
-            shown = readable(shortened(lines[first]))
+            shown = readable(shortened(lines[first].decode("latin-1")))
             raise ProfileError(f"{name}: row {first // deep + 1} begins {shown!r}, accepted are numbers") from None
-    return np.array(rows)
+    return np.array(numbers).reshape(-1, count)
 
 
 def _tracks(head, grid, tread, name):
     values, step = head.values, head.values["reference_line_increment"]
     line = {
-        kind: grid[:, head.channels.index(f"reference line {kind}")]
+        kind: np.asarray(grid[:, head.channels.index(f"reference line {kind}")], float)
         for kind in ("phi", "slope", "banking")
         if f"reference line {kind}" in head.channels
     }
@@ -155,19 +167,19 @@ def _tracks(head, grid, tread, name):
     sections = [k for k, channel in enumerate(head.channels) if channel.startswith("long section")]
     across = _across(head, sections, name)
     order = np.argsort(across)
-    across, surface = across[order], grid[:, np.array(sections)[order]]
+    across, sections = across[order], np.array(sections)[order]
     half = 0.5 * tread
-    if across[0] > -half or across[-1] < half:
+    if not (across[0] <= -half and half <= across[-1]):
         raise ProfileError(
             f"{name} reaches from {across[0]:g} to {across[-1]:g} m across, "
             f"the vehicle's tracks run at -{half:g} and {half:g} m"
         )
-    heights = np.stack([_along(across, surface, v, name) for v in (half, -half)])
+    heights = np.stack([_along(across, grid, sections, v, name) for v in (half, -half)])
     slope = line.get("slope", np.full(len(grid), values.get("reference_line_start_s", 0.0)))
     banking = line.get("banking", np.full(len(grid), values.get("reference_line_start_b", 0.0)))
     # the first row of a line's channel is unused: each row has what leads to it
-    rise = np.concatenate(([0.0], np.cumsum(np.nan_to_num(slope[1:]) * step)))
-    bank = np.nan_to_num(np.concatenate((banking[1:2], banking[1:])))
+    rise = np.concatenate(([0.0], np.cumsum(slope[1:] * step)))
+    bank = np.concatenate((banking[1:2], banking[1:]))
     if np.any(rise):
         heights = heights + rise
     if np.any(bank):
@@ -208,16 +220,13 @@ def _across(head, sections, name):
     return right + step * np.arange(len(sections))
 
 
-def _along(across, surface, v, name):
+def _along(across, grid, sections, v, name):
     """Return the heights (rows,) at a place across, linear between the sections to either side."""
-    right = min(int(np.searchsorted(across, v, side="right")) - 1, len(across) - 2) if len(across) > 1 else 0
-    if across[right] == v or len(across) == 1:
-        heights = surface[:, right]
-    elif across[right + 1] == v:
-        heights = surface[:, right + 1]
-    else:
-        share = (v - across[right]) / (across[right + 1] - across[right])
-        heights = (1.0 - share) * surface[:, right] + share * surface[:, right + 1]
+    left = min(int(np.searchsorted(across, v)), len(across) - 1)
+    heights = grid[:, sections[left]].astype(float)
+    if across[left] != v:
+        share = (across[left] - v) / (across[left] - across[left - 1])
+        heights = (1.0 - share) * heights + share * grid[:, sections[left - 1]]
     missing = np.flatnonzero(~np.isfinite(heights))
     if missing.size:
         raise ProfileError(f"{name}: no height in row {missing[0] + 1} at {v:g} m across, where a track runs")

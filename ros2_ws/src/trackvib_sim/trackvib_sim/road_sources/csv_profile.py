@@ -6,17 +6,20 @@ Units are m, cm, mm, km, in and ft. Lines that begin with # are comments; a semi
 """
 
 import csv
+from array import array
+from io import TextIOWrapper
 from itertools import islice
 from pathlib import Path
 
 import numpy as np
 from mr_mount_controller.node_base.plain_text import readable, shortened
 
+from ..ordinary_file import open_ordinary
 from ..road.profile import MOST, ProfileError, checked
 
 UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "km": 1e3, "in": 0.0254, "ft": 0.3048}  # m
 COLUMNS = (("distance", "left", "right"), ("distance", "height"))
-_LARGEST = 2 * 2**30  # bytes
+_LARGEST = 2**30  # bytes
 _LONGEST = 10_000  # characters of a line
 
 
@@ -30,16 +33,14 @@ def read_csv_profile(path):
     OSError
         It cannot be read.
     """
-    path = Path(path)
-    if path.stat().st_size > _LARGEST:
-        raise ProfileError(f"{path}: {path.stat().st_size} bytes, accepted are {_LARGEST}")
+    name = readable(str(path))
     try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            return _read(file, str(path))
+        with open_ordinary(path, _LARGEST) as file, TextIOWrapper(file, encoding="utf-8-sig", newline="") as text:
+            return _read(text, name)
     except UnicodeDecodeError as error:
-        raise ProfileError(
-            f"{path} is no text in UTF-8: byte {error.start} is 0x{error.object[error.start]:02x}"
-        ) from None
+        raise ProfileError(f"{name} is no text in UTF-8: it has a byte 0x{error.object[error.start]:02x}") from None
+    except csv.Error as error:  # NUL, for older versions of Python
+        raise ProfileError(f"{name} is no CSV file: {error}") from None
 
 
 def write_csv_profile(path, distance, heights):
@@ -58,17 +59,18 @@ def _read(file, name):
     delimiter = next((sign for sign in (",", ";", "\t") if sign in head), ",")
     columns = [column.strip().lower() for column in next(csv.reader([head], delimiter=delimiter))]
     wanted, factors = _columns(columns, name)
-    rows = []
+    numbers = array("d")
     for number, line in lines:
         cells = next(csv.reader([line], delimiter=delimiter))
         try:
-            rows.append([float(cells[k]) for k in wanted])
+            numbers.extend([float(cells[k]) for k in wanted])
         except (ValueError, IndexError):
             shown = readable(shortened(line))
             raise ProfileError(f"{name}, line {number}: {shown!r}, accepted are {len(columns)} numbers") from None
-        if len(rows) > MOST:
+        if len(numbers) > MOST * len(wanted):
             raise ProfileError(f"{name}: more than {MOST} samples")
-    values = np.array(rows).reshape(-1, len(wanted)).T * np.array(factors)[:, None]
+    with np.errstate(over="ignore"):  # what is infinite is refused
+        values = np.frombuffer(numbers).reshape(-1, len(wanted)).T * np.array(factors)[:, None]
     return checked(values[0], values[[1, -1]], name)
 
 

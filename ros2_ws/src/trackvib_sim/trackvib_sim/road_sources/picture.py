@@ -6,11 +6,13 @@ matplotlib.use("Agg")  # files only: no display is needed
 
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
+from mr_mount_controller.node_base.plain_text import plain_line  # noqa: E402
 
 from ..road.iso8608 import CLASSES, roughness_of  # noqa: E402
 from .measures import FITTED, psd, smoothed  # noqa: E402
 
 COLOURS = {"left": "#1f5fa8", "right": "#d1662b"}
+_FREQUENCIES, _DENSITIES = (0.005, 10.0), (1e-10, 1e2)  # 1/m, m^3; of the axes
 _MOST_DRAWN = 20_000  # samples of a profile
 
 
@@ -18,7 +20,7 @@ def road_picture(distance, heights, title, file):
     """Draw heights (2, n) [m] over distance (n,) [m] to a PNG file."""
     spacing = distance[1] - distance[0]
     figure, (profile, spectrum) = plt.subplots(1, 2, figsize=(13.0, 5.0), width_ratios=(1.4, 1.0), layout="constrained")
-    figure.suptitle(title, fontsize=12)
+    figure.suptitle(plain_line(title), fontsize=12, parse_math=False)  # a file's name comes from outside
     step = max(1, len(distance) // _MOST_DRAWN)
     frequency = np.geomspace(*FITTED, 50)
     for each in CLASSES:
@@ -31,7 +33,7 @@ def road_picture(distance, heights, title, file):
             spectrum.loglog(*psd(values, spacing), color=colour, linewidth=0.5, alpha=0.4)
             spectrum.loglog(*smoothed(values, spacing), "o-", color=colour, markersize=3, label=side)
     profile.set(xlabel="distance, m", ylabel="height, mm")
-    spectrum.set(xlabel="spatial frequency, 1/m", ylabel="displacement PSD, m³")
+    spectrum.set(xlabel="spatial frequency, 1/m", ylabel="displacement PSD, m³", xlim=_FREQUENCIES, ylim=_DENSITIES)
     spectrum.set_title("third octaves; grey: means of the classes of ISO 8608", fontsize=9)
     for plot in (profile, spectrum):
         plot.grid(alpha=0.3)

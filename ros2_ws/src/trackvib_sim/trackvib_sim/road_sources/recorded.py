@@ -3,10 +3,12 @@
 from dataclasses import dataclass
 
 import numpy as np
+from mr_mount_controller.node_base.plain_text import readable
 
 from ..bags.errors import BagError
 from ..bags.reading import read_recording
-from ..road.profile import ProfileError
+from ..road.profile import Profile, ProfileError, checked
+from ..road.store import RoadStore
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,6 +25,11 @@ class RecordedRoad:
         """Distance at which the recording ends [m]."""
         return self.spacing * (self.first + self.samples.shape[1] - 1)
 
+    @property
+    def profile(self) -> Profile:
+        """The same as a profile, to be driven elsewhere."""
+        return Profile(self.spacing * (self.first + np.arange(self.samples.shape[1])), self.samples)
+
     def heights(self, first: int, count: int) -> np.ndarray:
         """Return the heights (2, count) [m], left and right, of the samples `first` ... `first + count - 1`."""
         index = np.clip(np.arange(first, first + count) - self.first, 0, self.samples.shape[1] - 1)
@@ -35,24 +42,29 @@ def read_recorded_road(bag):
     Raises
     ------
     ProfileError
-        The bag cannot be read, or its patches leave a gap or differ in their spacing.
+        The bag cannot be read, its patches cannot be used, or leave a gap or differ in their spacing.
     """
+    name = readable(str(bag))
     try:
         patches = read_recording(bag).road
+        store = RoadStore()
+        for patch in patches:
+            store.add(*patch)
     except BagError as error:
         raise ProfileError(str(error)) from None
+    except ValueError as error:
+        raise ProfileError(f"{name}: a patch of road whose {error}") from None
     if not patches:
-        raise ProfileError(f"{bag} holds no road")
+        raise ProfileError(f"{name} holds no road")
     spacings = {spacing for _, spacing, *_ in patches}
     if len(spacings) > 1:
-        raise ProfileError(f"{bag}: road of {len(spacings)} spacings, accepted is one")
+        raise ProfileError(f"{name}: road of {len(spacings)} spacings, accepted is one")
     (spacing,) = spacings
-    found = {}
-    for start, _, left, right in patches:
-        first = round(start / spacing)
-        found.update({first + k: pair for k, pair in enumerate(zip(left.tolist(), right.tolist(), strict=True))})
-    order = sorted(found)
-    gaps = [k for k, after in zip(order, order[1:], strict=False) if after != k + 1]
-    if gaps:
-        raise ProfileError(f"{bag}: no road from {gaps[0] * spacing:g} m on, accepted is one without gaps")
-    return RecordedRoad(spacing, order[0], np.array([found[k] for k in order]).T.copy())
+    begin = min(start for start, *_ in patches)
+    end = max(start + spacing * (len(left) - 1) for start, _, left, _ in patches)
+    road = store.around(begin, end - 0.5 * spacing)
+    if road is None:
+        raise ProfileError(f"{name}: no road without gaps from {begin:g} to {end:g} m")
+    recorded = RecordedRoad(road.spacing, road.first, road.height)
+    checked(*recorded.profile, name)
+    return recorded

@@ -1,4 +1,4 @@
-"""Roads by name or file: what `--road` and the road node's `road_file` take.
+"""Roads by name or file: what `--road` and the road node's parameter `road` take.
 
 E                a class of ISO 8608
 profile.csv      a profile (`csv_profile`)
@@ -12,12 +12,26 @@ obstacles:
   - {shape: half_round, at: 30, radius: 0.15, side: left}
 """
 
+import os
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from mr_mount_controller.node_base.plain_text import readable, shortened
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, model_validator
 
-from ..road.iso8608 import CLASSES, FADE, HIGHEST, LEVEL_UNTIL, LOWEST, SPACING, Iso8608Road, Isotropic, Roughness
+from ..road.iso8608 import (
+    CLASSES,
+    FADE,
+    HIGHEST,
+    LEVEL_UNTIL,
+    LOWEST,
+    SPACING,
+    Exponential,
+    Iso8608Road,
+    Isotropic,
+    Roughness,
+    roughness_of,
+)
 from ..road.obstacles import FINE, LevelRoad, Obstacle, ObstacleRoad
 from ..road.profile import COARSEST, FINEST, ProfileError, ProfileRoad
 from ..yaml_text import YamlTextError, read_text, validated
@@ -26,9 +40,8 @@ from .csv_profile import read_csv_profile
 from .recorded import read_recorded_road
 
 MOST_OBSTACLES = 10_000
+HIGHEST_RMS = 10.0  # m, of a random road; class H has 0.5
 DEFAULT_START = 10.0  # m, at which a profile begins: before it the vehicle stands or rolls on level ground
-
-Number = Annotated[float, Field(allow_inf_nan=False)]
 
 
 class RoadError(ValueError):
@@ -45,31 +58,51 @@ class RandomGround(_Part):
     road_class: Annotated[Literal[tuple(CLASSES)] | None, Field(alias="class")] = None
     level: Annotated[float, Field(gt=0.0, le=1.0, allow_inf_nan=False)] | None = None  # G_d(n0), m^3
     waviness: Annotated[float, Field(ge=0.5, le=4.0)] = 2.0
-    lowest: Annotated[float, Field(gt=0.0, le=100.0)] = LOWEST  # 1/m
-    highest: Annotated[float, Field(gt=0.0, le=100.0)] = HIGHEST
+    lowest: Annotated[float, Field(ge=1e-4, le=100.0)] = LOWEST  # 1/m
+    highest: Annotated[float, Field(ge=1e-4, le=100.0)] = HIGHEST
     seed: Annotated[int, Field(ge=0, le=10**9)] = 1
     level_until: Annotated[float, Field(ge=-1000.0, le=1e6)] = LEVEL_UNTIL
     fade: Annotated[float, Field(ge=0.1, le=1000.0)] = FADE
+    coherence_length: Annotated[float, Field(ge=0.0, le=100.0)] | None = None  # m, of exp(-l n); else isotropic
 
     @model_validator(mode="after")
     def _one_of_both(self):
         if (self.road_class is None) == (self.level is None):
             raise ValueError("one of class and level must be given")
+        own = {"waviness", "lowest", "highest"} & self.model_fields_set
+        if self.road_class and own:
+            raise ValueError(f"{', '.join(sorted(own))} is given beside a class, accepted is it beside a level")
         if not self.lowest < self.highest:
             raise ValueError(f"lowest is {self.lowest:g} 1/m and highest {self.highest:g}, lowest must be below")
+        if not self._roughness.rms <= HIGHEST_RMS:
+            raise ValueError(f"its heights have an RMS value of {self._roughness.rms:.3g} m, accepted: {HIGHEST_RMS:g}")
         return self
+
+    @property
+    def _roughness(self):
+        if self.road_class:
+            return roughness_of(self.road_class)
+        return Roughness(self.level, self.waviness, self.lowest, self.highest)
 
     def road(self, folder, tread, spacing):
         """Return the road."""
-        roughness = self.road_class or Roughness(self.level, self.waviness, self.lowest, self.highest)
-        return Iso8608Road(roughness, self.seed, self.level_until, self.fade, Isotropic(tread), spacing or SPACING)
+        spacing = spacing or SPACING
+        if not self.highest * spacing <= 0.5:
+            raise RoadError(
+                f"spacing is {spacing:g} m, must be at most {0.5 / self.highest:.3g} m for waves up to "
+                f"{self.highest:g} 1/m"
+            )
+        coherence = Isotropic(tread) if self.coherence_length is None else Exponential(self.coherence_length)
+        return Iso8608Road(
+            self.road_class or self._roughness, self.seed, self.level_until, self.fade, coherence, spacing
+        )
 
 
 class FileGround(_Part):
     """A profile or surface from a file, or the road of a bag."""
 
     file: Annotated[str, Field(min_length=1, max_length=1000)]
-    start: Annotated[float, Field(ge=-1e6, le=1e6)] = DEFAULT_START
+    start: Annotated[float, Field(ge=-1e6, le=1e6)] | None = None
     reverse: bool = False
     repeat: bool = False
 
@@ -80,20 +113,19 @@ class FileGround(_Part):
         return road_from_file(folder / self.file, tread, self.start, self.reverse, self.repeat)
 
 
-class LevelGround(_Part):
-    """Nothing but obstacles."""
-
-    flat: Literal[True]
-
-    def road(self, folder, tread, spacing):
-        """Return the road."""
-        return LevelRoad(spacing or FINE)
+def _kind_of_ground(ground):
+    return "file" if isinstance(ground, dict) and "file" in ground else "random"
 
 
 class RoadFile(_Part):
     """The whole file."""
 
-    ground: RandomGround | FileGround | LevelGround = LevelGround(flat=True)
+    ground: (
+        Annotated[
+            Annotated[RandomGround, Tag("random")] | Annotated[FileGround, Tag("file")], Discriminator(_kind_of_ground)
+        ]
+        | None
+    ) = None  # level
     spacing: Annotated[float, Field(ge=FINEST, le=COARSEST)] | None = None  # m
     obstacles: Annotated[list[Obstacle], Field(max_length=MOST_OBSTACLES)] = []
 
@@ -113,11 +145,17 @@ def find_road(text, tread, seed=1):
     ------
     RoadError
         It cannot be used.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> tv.find_road("D", tread=2.8, seed=3).spacing  # m
+    0.05
     """
     if text in CLASSES:
         return Iso8608Road(text, seed, coherence=Isotropic(tread))
     path = Path(text)
-    if path.suffix.lower() in (".yaml", ".yml") and path.is_file():
+    if path.suffix.lower() in (".yaml", ".yml"):
         return _described(path, tread)
     return road_from_file(path, tread)
 
@@ -132,30 +170,42 @@ def whole_name(text):
     return text if text in CLASSES else str(Path(text).absolute())
 
 
-def road_from_file(path, tread, start=DEFAULT_START, reverse=False, repeat=False):
-    """Return the road in a CSV or OpenCRG file, beginning at `start` [m], or that of a bag, which is where it was.
+def road_from_file(path, tread, start=None, reverse=False, repeat=False):
+    """Return the road in a CSV or OpenCRG file, or that of a bag, beginning at `start` [m].
 
-    Raises as `find_road` does.
+    Where nothing is asked for, a file's begins at `DEFAULT_START` and a bag's lies where it was. Raises as `find_road`
+    does.
     """
     suffix = path.suffix.lower()
     try:
         if suffix == ".csv":
-            return ProfileRoad(read_csv_profile(path), start, reverse, repeat)
-        if suffix == ".crg":
-            return ProfileRoad(read_crg(path, tread), start, reverse, repeat)
-        if path.exists():
-            return read_recorded_road(path)
-    except (ProfileError, OSError) as error:
-        reason = getattr(error, "strerror", None)
-        raise RoadError(f"{path}: {reason}" if reason else str(error)) from None
-    classes = ", ".join(CLASSES)
-    raise RoadError(f"road {str(path)!r} is there not; accepted are a class ({classes}), .csv, .crg, .yaml or a bag")
+            profile = read_csv_profile(path)
+        elif suffix == ".crg":
+            profile = read_crg(path, tread)
+        elif os.path.exists(path):
+            recorded = read_recorded_road(path)
+            if start is None and not reverse and not repeat:
+                return recorded
+            profile = recorded.profile
+        else:
+            accepted = f"a class ({', '.join(CLASSES)}), .csv, .crg, .yaml or a bag"
+            raise RoadError(f"road {shortened(str(path))!r} is not there; accepted are {accepted}")
+    except ProfileError as error:
+        raise RoadError(str(error)) from None
+    except OSError as error:
+        raise RoadError(f"road {shortened(str(path))!r} cannot be read: {error.strerror or error}") from None
+    return ProfileRoad(profile, DEFAULT_START if start is None else start, reverse, repeat)
 
 
 def _described(path, tread):
     try:
-        told = validated(RoadFile, read_text(path, "road file"), str(path))
+        told = validated(RoadFile, read_text(path, "road file"), str(path), {"ground": 1, "obstacles": 2})
+        if told.ground is None:
+            ground = LevelRoad(told.spacing or FINE)
+        else:
+            ground = told.ground.road(path.parent, tread, told.spacing)
     except YamlTextError as error:
         raise RoadError(str(error)) from None
-    ground = told.ground.road(path.parent, tread, told.spacing)
+    except RoadError as error:
+        raise RoadError(f"{readable(str(path))}: {error}") from None
     return ObstacleRoad(ground, tuple(told.obstacles)) if told.obstacles else ground
