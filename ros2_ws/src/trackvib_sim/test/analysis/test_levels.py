@@ -39,7 +39,7 @@ def test_sine_has_its_levels():
     assert z.vdv == pytest.approx((0.375 * perceived**4 * 60.0) ** 0.25, rel=1e-3)
     assert numbers[1].rms == pytest.approx(0.5 * z.rms, rel=1e-9)
     assert numbers[0].rms_weighted < z.rms_weighted  # Wd has left 5 Hz behind, Wk has not
-    np.testing.assert_allclose(history[0][5:55, 2], z.rms, rtol=1e-6)
+    np.testing.assert_allclose(history.rms[5:55, 2], z.rms, rtol=1e-6)
 
 
 @pytest.mark.analytic

@@ -5,12 +5,13 @@ from .mean_spectra import MeanSpectra
 from .numbers import AXES, SENSORS
 
 
-def measure_accelerations(recording, segments, bins, on_progress):
-    """Return `AxisNumbers` by sensor and axis, the `Spectra`, and the `Levels` by sensor, whose history is in `bins`.
+def measure_accelerations(recording, segments, bins, parts, on_progress):
+    """Return `AxisNumbers` by sensor and axis, the `Spectra`, and the `Levels` by sensor, in `bins` and `parts`.
 
     `on_progress(done, total)` is called now and then with the samples that have been looked at.
     """
-    levels, spectra = {sensor: Levels(segments.rate, bins) for sensor in SENSORS}, MeanSpectra(segments.rate)
+    levels = {sensor: Levels(segments.rate, bins, parts) for sensor in SENSORS}
+    spectra = MeanSpectra(segments.rate)
     total, done = len(SENSORS) * sum(segment.size for segment in segments.segments), 0
     for segment in segments.segments:
         counting = []
