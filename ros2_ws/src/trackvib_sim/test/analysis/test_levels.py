@@ -60,7 +60,7 @@ def test_blocks_do_not_show(monkeypatch):
     acceleration = np.cumsum(random.normal(scale=0.02, size=(95_500, 3)), axis=0) + random.normal(size=(95_500, 3))
     measured = 3000
     monkeypatch.setattr(levels, "BLOCK", 15.0)  # s
-    numbers, (limited_history, _) = levels_of(acceleration, measured)
+    numbers, history = levels_of(acceleration, measured)
     limited = band_limited(acceleration, RATE)
     for axis, (found, name) in enumerate(zip(numbers, levels.WEIGHTINGS, strict=True)):
         raw, perceived = acceleration[measured:, axis], weighted(acceleration[:, axis], name, RATE)[measured:]
@@ -72,7 +72,7 @@ def test_blocks_do_not_show(monkeypatch):
         )  # fmt: skip
         np.testing.assert_allclose(list(vars(found).values()), expected, rtol=1e-10)
     seconds_of = limited[:95_000].reshape(95, 1000, 3)
-    np.testing.assert_allclose(limited_history[:95], np.sqrt(np.mean(seconds_of**2, axis=1)), rtol=1e-10)
+    np.testing.assert_allclose(history.rms[:95], np.sqrt(np.mean(seconds_of**2, axis=1)), rtol=1e-10)
 
 
 @pytest.mark.property

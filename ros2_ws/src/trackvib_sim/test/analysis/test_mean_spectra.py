@@ -62,7 +62,9 @@ def test_lines_hold_the_level_of_their_sines():
     amplitudes = {80.0: 2.0, 160.0: 1.0, 240.0: 0.5, 55.0: 4.0}
     wave = sum(a * np.sin(2.0 * np.pi * f * time) for f, a in amplitudes.items())
     chassis = np.outer(wave, (1.0, 2.0, 3.0))
-    lines = known_lines(spectra_of(chassis, 0.5 * chassis), MeanMotion(10.0, 0.0, 1650.0, 0.0), 0.125, (0.05, 2.0, 50.0))
+    lines = known_lines(
+        spectra_of(chassis, 0.5 * chassis), MeanMotion(10.0, 0.0, 1650.0, 0.0), 0.125, (0.05, 2.0, 50.0)
+    )
     # order 0.05 lies below what can be told from rest, order 50 beyond half the rate
     assert [line.name for line in lines] == ["link passing 1", "link passing 2", "link passing 3", "engine order 2"]
     for line in lines:

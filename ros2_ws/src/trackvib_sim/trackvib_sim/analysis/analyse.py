@@ -5,7 +5,7 @@ from math import hypot, inf
 
 from ..bags.recording import Recording
 from ..numerics.units import NANO
-from .acceleration_numbers import measure_accelerations
+from .acceleration_numbers import axis_numbers, measure_accelerations
 from .campbell import campbells
 from .history import build_history
 from .levels import build_bins
@@ -14,9 +14,9 @@ from .loop_health import drive, loop_health, mount_energy
 from .motion import mean_motion
 from .mount_numbers import currents, mount_numbers
 from .notes import find_notes
-from .numbers import Analysis
+from .numbers import INTERVAL, SPEED_BAND, Analysis
 from .orders import track_orders
-from .parts import INTERVAL, SPEED_BAND, build_parts, numbers_in_parts
+from .parts import build_parts, numbers_in_parts
 from .segments import find_segments
 from .vibration import band
 
@@ -66,7 +66,8 @@ def analyse(
     loop = loop_health(recording)
     bins = build_bins(segments.begin, segments.last)
     parts = build_parts(recording, segments.settled, interval, speed_band)
-    sensors, spectra, levels = measure_accelerations(recording, segments, bins, parts, on_progress)
+    levels, spectra = measure_accelerations(recording, segments, bins, parts, on_progress)
+    sensors = axis_numbers(levels)
     motion = mean_motion(recording, segments.settled)
     pitch, orders, no_vehicle = read_causes(recording)
     order_levels, order_spectra = track_orders(recording, segments, orders)
@@ -103,4 +104,3 @@ def analyse(
         history=build_history(recording, bins, levels),
         notes=(*find_notes(recording, segments), *missing_causes(recording, motion), *no_vehicle),
     )
-

@@ -1,8 +1,8 @@
 """All that `analyze` says of a bag, as plain data. Each number carries its unit; `docs/bags.md` defines each.
 
-Sensors are "chassis" and "powertrain", axes "x" (forward), "y" (left) and "z" (up); mounts have the names that the bag
-tells, "left" and "right" of one that tells none. A number that cannot be had is nan, as the current of a mount without
-a coil, and the notes of the `Analysis` say why.
+Sensors are "chassis" and "powertrain", and those further ones of the bag where nothing else is said; axes are "x"
+(forward), "y" (left) and "z" (up); mounts have the names that the bag tells, "left" and "right" of one that tells none.
+A number that cannot be had is nan, as the current of a mount without a coil, and the notes of the `Analysis` say why.
 """
 
 from dataclasses import dataclass, field
@@ -11,6 +11,8 @@ import numpy as np
 
 AXES = ("x", "y", "z")
 SENSORS = ("chassis", "powertrain")
+INTERVAL = 50.0  # m of way, by which numbers are given
+SPEED_BAND = 2.0  # m/s, likewise
 
 
 def _number(unit):

@@ -6,10 +6,8 @@ import numpy as np
 
 from .history import bin_means
 from .motion import engine_speed_of, speed_of, way_of
-from .numbers import AXES, SENSORS, SpeedBand, WayInterval
+from .numbers import AXES, INTERVAL, SENSORS, SPEED_BAND, SpeedBand, WayInterval
 
-INTERVAL = 50.0  # m of way
-SPEED_BAND = 2.0  # m/s
 KINDS = {"by_way": WayInterval, "by_speed": SpeedBand}
 MOST = 3600  # parts; of longer ways the intervals are longer
 
@@ -81,7 +79,7 @@ def numbers_in_parts(parts_by_name, levels, recording, segments):
 
 
 def _filled(kind, parts, levels, name, recording, segments):
-    levels = {sensor: levels[sensor].parts()[name] for sensor in SENSORS}
+    levels = {sensor: found.parts()[name] for sensor, found in levels.items()}
     means = []
     for slow in (speed_of(recording), engine_speed_of(recording)):
         counting = None if slow is None else slow.after(segments.settled)
@@ -95,9 +93,9 @@ def _filled(kind, parts, levels, name, recording, segments):
             measured=float(seconds[k]),
             speed=float(means[0][k]),
             engine_speed=float(means[1][k]),
-            rms={sensor: _by_axis(levels[sensor].rms[k]) for sensor in SENSORS},
-            rms_weighted={sensor: _by_axis(levels[sensor].rms_weighted[k]) for sensor in SENSORS},
-            absorbed_power={sensor: float(levels[sensor].absorbed_power[k]) for sensor in SENSORS},
+            rms={sensor: _by_axis(found.rms[k]) for sensor, found in levels.items()},
+            rms_weighted={sensor: _by_axis(found.rms_weighted[k]) for sensor, found in levels.items()},
+            absorbed_power={sensor: float(found.absorbed_power[k]) for sensor, found in levels.items()},
         )
 
 
