@@ -3,8 +3,9 @@
 import numpy as np
 from scipy import signal
 
+from ..numerics.units import NANO
 from .lines import HARMONICS
-from .motion import engine_speed_of, gear_of, speed_of
+from .motion import engine_speed_of, gear_of, shifts_of, speed_of
 from .numbers import AXES, SENSORS, Campbell, Ray
 from .orders import LEAST_BANDS, STEP
 from .parts import parts_by
@@ -48,7 +49,11 @@ def campbells(recording, segments, pitch, orders):
 
 
 def _mean_spectra(recording, segments, parts):
-    """Return frequencies [Hz] and mean spectra (n, f) by sensor in parts; None of segments shorter than a window."""
+    """Return frequencies [Hz] and mean spectra (n, f) by sensor in parts; None of segments shorter than a window.
+
+    A window in which gears are shifted, and the engine's speed jumps, counts nowhere.
+    """
+    shifts = shifts_of(recording)
     length = round(WINDOW * segments.rate)
     hop = length - length // 2
     frequency, psd = None, {}
@@ -63,7 +68,9 @@ def _mean_spectra(recording, segments, parts):
                 frequency, _, found = signal.spectrogram(
                     np.array(vertical[samples]), segments.rate, "hann", length, length // 2, detrend="constant"
                 )
-                within, sums = parts.sums(stamp[samples][length // 2 :: hop][: found.shape[1]], found.T)
+                begin = stamp[samples][::hop][: found.shape[1]]
+                kept = np.diff(np.searchsorted(shifts, (begin, begin + round(WINDOW * NANO))), axis=0)[0] == 0
+                within, sums = parts.sums(begin[kept] + round(0.5 * WINDOW * NANO), found.T[kept])
                 count, total = count + within, total + sums
         psd[sensor] = total / np.where(count > 0, count, np.nan)[:, None]
     return frequency, psd

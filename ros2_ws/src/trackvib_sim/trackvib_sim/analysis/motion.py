@@ -75,6 +75,12 @@ def gear_of(recording):
     return Slow(*_rising(recording.drive.stamp, recording.drive.gear))
 
 
+def shifts_of(recording):
+    """Return the stamps (k,) [ns] at which another gear is first engaged; none without a recorded drive."""
+    gear = gear_of(recording)
+    return np.empty(0, np.int64) if gear is None else gear.stamp[1:][np.diff(gear.value) != 0.0]
+
+
 def mean_motion(recording, settled):
     """Return the `MeanMotion` after a stamp [ns]."""
     odometry, engine = recording.odometry, engine_speed_of(recording)

@@ -5,7 +5,7 @@ import plotly.graph_objects as go
 
 from ..numbers import AXES, SENSORS
 from .comparison_figures import overlay
-from .figure_style import AXIS_NAMES, LINE_COLOURS, line, mount_colour, styled
+from .figure_style import AXIS_NAMES, line, mount_colour, styled
 from .spectrogram_figures import ends_of, level_map
 
 _ENGINE = ("engine speed", "r/min")
@@ -75,17 +75,30 @@ def _campbell(diagram, sensor):
     across = diagram.value, diagram.over, diagram.unit
     figure = level_map(_title(sensor), across, up, levels[sensor], ends_of(levels.values()))
     for ray in diagram.rays:
-        kind = next(kind for kind in LINE_COLOURS if ray.name.startswith(kind))
-        style = {"color": "white", "width": 1.2, "dash": "dot" if kind == "link passing" else "dash"}
-        (x, y), (x_end, y_end) = ray.ends
-        figure.add_shape(type="line", x0=x, y0=y, x1=x_end, y1=y_end, line=style)
-        name = ray.name.removeprefix(f"{kind} ").split(",")[0]
-        words = f"order {name}" if kind == "engine order" else "v/p" if name == "1" else f"{name} v/p"
-        figure.add_annotation(
-            x=x_end, y=y_end, text=words, showarrow=False, xanchor="right", yanchor="bottom",
-            font={"size": 10, "color": "white"}, borderpad=0,
-        )  # fmt: skip
-    return figure.update_yaxes(range=(0.0, float(diagram.frequency[shown][-1])))
+        figure.add_trace(_ray(ray))
+    half = 0.5 * (diagram.value[1] - diagram.value[0])
+    figure.update_xaxes(range=(float(diagram.value[0] - half), float(diagram.value[-1] + half)))
+    figure.update_yaxes(range=(0.0, float(diagram.frequency[shown][-1])))
+    return figure.update_layout(height=420, showlegend=False)
+
+
+def _ray(ray):
+    """Return the line of a `Ray`; harmonics of link passing tell their names only where one points at them."""
+    name, _, gear = ray.name.partition(", ")
+    kind, _, number = name.rpartition(" ")
+    passing = kind == "link passing"
+    words = f"order {number}" if not passing else "v/p" if number == "1" else ""
+    x, y = zip(*ray.ends, strict=True)
+    return go.Scatter(
+        x=x,
+        y=y,
+        mode="lines+text",
+        text=("", ", ".join(filter(None, (words, gear))) if words else ""),
+        textposition="top left",
+        textfont={"size": 10, "color": "white"},
+        line={"color": "rgba(255,255,255,0.75)", "width": 1, "dash": "dot" if passing else "dash"},
+        hovertemplate=f"{ray.name}: %{{x:.4~g}}, %{{y:.4~g}} Hz<extra></extra>",
+    )
 
 
 def _title(sensor):

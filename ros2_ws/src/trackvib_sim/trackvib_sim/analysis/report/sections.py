@@ -169,9 +169,7 @@ def tiles(analysis):
         for words, value, first in found
     ]
     if isfinite(power := analysis.absorbed_power["chassis"]):
-        tiles.append(
-            ("absorbed power, chassis z", tables.number(power, 3), "W", f"{RIDE_LIMIT:g} W are a limit of ride")
-        )
+        tiles.append(("absorbed power, chassis z", tables.number(power, 3), "W", f"limit of ride: {RIDE_LIMIT:g} W"))
     if analysis.mounts:
         energy = sum(mount.energy_dissipated for mount in analysis.mounts.values())
         power = sum(mount.power_dissipated for mount in analysis.mounts.values())

@@ -41,7 +41,8 @@ def _levels(parts, across, rows):
             options = {"legendgroup": sensor, "showlegend": row == 1}
             figure.add_trace(line(points, sensor, SENSOR_COLOURS[sensor], **options), row=row, col=1)
         figure.update_yaxes(title_text=words, rangemode="tozero", row=row, col=1)
-    figure.add_hline(RIDE_LIMIT, line={"color": "rgba(128,128,128,0.9)", "width": 1, "dash": "dot"}, row=2, col=1)
+    if max(part.absorbed_power[sensor] for part in parts for sensor in SENSORS) > RIDE_LIMIT / 3.0:
+        figure.add_hline(RIDE_LIMIT, line={"color": "rgba(128,128,128,0.9)", "width": 1, "dash": "dot"}, row=2, col=1)
     figure.update_xaxes(title_text=across, row=rows, col=1)
     return figure
 
