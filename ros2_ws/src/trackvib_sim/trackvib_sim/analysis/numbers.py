@@ -46,8 +46,10 @@ class Line:
 
 @dataclass(frozen=True)
 class Part:
-    """A part of the measured time, and what was measured in it."""
+    """A part of the measured time, between two values of something, and what was measured in it."""
 
+    low: float
+    high: float
     measured: float = _number("s")  # time that counts
     speed: float = _number("m/s")  # mean
     engine_speed: float = _number("r/min")  # mean; nan if it was not recorded
@@ -56,7 +58,7 @@ class Part:
     absorbed_power: dict = _number("W")  # sensor -> of the vertical
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class WayInterval(Part):
     """The time in which the hull was in an interval of its way."""
 
@@ -64,7 +66,7 @@ class WayInterval(Part):
     high: float = _number("m")
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class SpeedBand(Part):
     """The time in which the hull's speed, averaged over 1 s, was in a band."""
 
