@@ -128,6 +128,27 @@ def test_campbell_diagrams_have_their_ridges_on_the_rays(recording):
 
 
 @pytest.mark.property
+def test_odd_drives_do_no_harm(recording):
+    """Numbers that are none and speeds that no engine has are left out; a slow sensor tells low orders only."""
+    engine = np.array(recording.drive.engine_speed)
+    engine[1000:1100], engine[1500:1510], distance = np.nan, 1e100, np.full(len(engine), 1e100)
+    odd = recording._replace(drive=recording.drive._replace(engine_speed=engine, distance=distance))
+    found = analyse(odd)
+    assert found.by_way == () and len(found.by_speed) > 1
+    acceleration = np.array(recording.chassis.specific_force)
+    acceleration[15_000, 0] = np.nan
+    holed = recording._replace(chassis=recording.chassis._replace(specific_force=acceleration))
+    assert len(analyse(holed).order_levels) > 30
+    slow = {
+        sensor: type(recording.chassis)(*(column[9::10] for column in getattr(recording, sensor)))
+        for sensor in ("chassis", "powertrain")
+    }
+    spectra = analyse(recording._replace(mounts=None, answers=None, **slow)).order_spectra
+    told = np.isfinite(spectra.psd["chassis"][:, :, 2])
+    assert spectra.order[told.any(axis=0)].max() * spectra.engine_speed[told.any(axis=1)].min() / 60.0 < 100.0
+
+
+@pytest.mark.property
 def test_lines_use_the_recorded_engine_speed():
     """Not what the simulator was told, 1650 r/min; the band takes in how much it varied."""
     made = made_recording(MILLISECONDS[:8000])

@@ -21,7 +21,7 @@ WINDOW = 10  # revolutions: a resolution of a tenth of an order
 HALF_WIDTH = 0.25  # orders to either side of one: what a Hann window spreads a sine over, half orders told apart
 STEP = 50.0  # r/min, width of the bands of engine speed
 LEAST_BANDS = 4  # over which the speed varies, for orders to be tracked
-SLOWEST = 300.0  # r/min, below which an engine does not run
+SLOWEST, FASTEST = 300.0, 30_000.0  # r/min, between which an engine runs
 HIGHEST = 10.0  # order of the spectra, or half as much again as the vehicle's highest
 TRUSTED = 1.0 / 3.0  # of the sampling rate: up to it the spline keeps amplitudes within 2 %
 BLOCK = 60  # windows at a time
@@ -39,7 +39,7 @@ def track_orders(recording, segments, orders):
         return (), None
     highest = max(HIGHEST, 1.5 * max(orders, default=0.0))
     per_turn = ceil(60.0 * segments.rate / SLOWEST)  # never fewer samples a second than recorded: nothing folds back
-    order = np.arange(round(highest * WINDOW) + 1) / WINDOW
+    order = np.arange(min(round(highest * WINDOW), per_turn * WINDOW // 2) + 1) / WINDOW
     count, total = np.zeros(parts.count), np.zeros((parts.count, order.size * len(SENSORS) * len(AXES)))
     for stretch in _stretches(recording, segments, engine):
         for stamp, psd in _windows(recording, stretch, per_turn, order.size):
@@ -62,7 +62,7 @@ def _stretches(recording, segments, engine):
     Times are since the segment's first sample that counts.
     """
     gear = gear_of(recording).at(engine.stamp)
-    steady = (engine.value >= SLOWEST) & np.isfinite(gear)
+    steady = (engine.value >= SLOWEST) & (engine.value <= FASTEST) & np.isfinite(gear)
     changes = np.flatnonzero((np.diff(gear) != 0.0) | (np.diff(steady) != 0)) + 1
     for run in np.split(np.arange(len(gear)), changes):
         if len(run) < 2 or not steady[run[0]]:
@@ -92,7 +92,7 @@ def _windows(recording, stretch, per_turn, size):
         first, last = np.searchsorted(since, instant[[0, -1]])
         around = slice(max(first - MARGIN, 0), last + MARGIN)
         known = np.hstack([np.array(each[around]) for each in columns])
-        turned = make_interp_spline(since[around], known, k=5)(instant)
+        turned = make_interp_spline(since[around], known, k=5, check_finite=False)(instant)  # nan stays nan
         length = WINDOW * per_turn
         psd = signal.spectrogram(turned, per_turn, "hann", length, length // 2, detrend="constant", axis=0)[2]
         middle = instant[length // 2 :: length // 2][:windows]

@@ -9,6 +9,7 @@ from .motion import engine_speed_of, speed_of, way_of
 from .numbers import AXES, INTERVAL, SENSORS, SPEED_BAND, SpeedBand, WayInterval
 
 KINDS = {"by_way": WayInterval, "by_speed": SpeedBand}
+GREATEST = 1e12  # widths
 MOST = 3600  # parts; of longer ways the intervals are longer
 
 
@@ -53,11 +54,13 @@ def build_parts(recording, settled, interval=INTERVAL, speed_band=SPEED_BAND):
 
 
 def parts_by(signal, settled, width):
-    """Return the `Parts` of a `motion.Slow` signal that are whole multiples of a width; None without any signal.
+    """Return the `Parts` of a `motion.Slow` signal that are whole multiples of a width.
 
-    They reach over what the signal is after the stamp `settled` [ns].
+    They reach over what the signal is after the stamp `settled` [ns]. Without a signal, or of one with values so great
+    that numbers cannot tell such parts apart, there are none: None.
     """
-    if signal is None or not len(counting := signal.after(settled).value):
+    counting = np.empty(0) if signal is None else signal.after(settled).value
+    if not len(counting) or not np.abs(counting).max() < GREATEST * width:
         return None
     first, last = (int(np.floor(each / width)) for each in (counting.min(), counting.max()))
     wider = -(-(last - first + 1) // MOST)  # whole multiples, as `levels.build_bins` has them
