@@ -6,7 +6,8 @@ polynomials in s = jω, so that a sine of RMS a leaves
 
     P = K1 K0 (F1 F4 - F2 F3) / (F3² + ω² F4²) a²      with a in ft/s², P in W.
 
-Neither report could be had, so nothing is held against the values that they tabulate. What can be checked holds: at
+Neither report, nor any later text with the constants, could be had: they were written down from memory, and nothing is
+held against the values that the reports tabulate. What can be checked holds: at
 rest F/a is 4.3537 slug = 63.5 kg, a man's mass on a seat; all poles are stable; P is nowhere negative; and the
 independent filter of third order that Project Chrono has for it (`ChAbsorbed_Power_Vertical`) gives the same within its
 roughness, with the same greatest value, 0.20 W/(ft/s²)² at 4.5 Hz (`test_absorbed_power.py`).
