@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 from mr_mount_controller.mounting import PAIR
-from trackvib_sim.bags.recording import Answers, Inertial, LoopCounts, Mounts, Odometry, Recording
+from trackvib_sim.bags.recording import Answers, Drive, Inertial, LoopCounts, Mounts, Odometry, Recording
 from trackvib_sim.data import find_vehicle
 
 MS = 1_000_000  # ns
@@ -42,4 +42,28 @@ def made_recording(milliseconds, chassis=None, powertrain=None, speed=10.0):
         counts=Counter({"/chassis/imu": count}),
         vehicle=find_vehicle().read_text(encoding="utf-8"),
         complete=True,
+    )
+
+
+def driven(recording, speed, engine_speed, gear=None):
+    """Return a recording with a drive, at the stamps of its odometry after the first.
+
+    Parameters
+    ----------
+    recording : Recording
+    speed, engine_speed : callable
+        Of the time (k,) [s], m/s and r/min.
+    gear : callable, optional
+        Likewise; by default the first one all the time.
+    """
+    stamp = recording.odometry.stamp
+    time = stamp / 1e9
+    speeds = speed(time)
+    distance = np.append(0.0, np.cumsum(0.5 * (speeds[1:] + speeds[:-1]) * np.diff(time)))
+    nothing, pair = np.zeros(len(time)), np.zeros((len(time), 2))
+    gears = np.ones(len(time)) if gear is None else gear(time)
+    drive = Drive(stamp, distance, nothing, speeds, nothing, engine_speed(time), gears, pair, pair)
+    return recording._replace(
+        odometry=recording.odometry._replace(speed=speeds),
+        drive=Drive(*(column[1:] for column in drive)),
     )

@@ -39,7 +39,7 @@ def test_sine_has_its_levels():
     assert z.vdv == pytest.approx((0.375 * perceived**4 * 60.0) ** 0.25, rel=1e-3)
     assert numbers[1].rms == pytest.approx(0.5 * z.rms, rel=1e-9)
     assert numbers[0].rms_weighted < z.rms_weighted  # Wd has left 5 Hz behind, Wk has not
-    np.testing.assert_allclose(history[0][5:55, 2], z.rms, rtol=1e-6)
+    np.testing.assert_allclose(history.rms[5:55, 2], z.rms, rtol=1e-6)
 
 
 @pytest.mark.analytic
@@ -60,7 +60,7 @@ def test_blocks_do_not_show(monkeypatch):
     acceleration = np.cumsum(random.normal(scale=0.02, size=(95_500, 3)), axis=0) + random.normal(size=(95_500, 3))
     measured = 3000
     monkeypatch.setattr(levels, "BLOCK", 15.0)  # s
-    numbers, (limited_history, _) = levels_of(acceleration, measured)
+    numbers, history = levels_of(acceleration, measured)
     limited = band_limited(acceleration, RATE)
     for axis, (found, name) in enumerate(zip(numbers, levels.WEIGHTINGS, strict=True)):
         raw, perceived = acceleration[measured:, axis], weighted(acceleration[:, axis], name, RATE)[measured:]
@@ -72,7 +72,7 @@ def test_blocks_do_not_show(monkeypatch):
         )  # fmt: skip
         np.testing.assert_allclose(list(vars(found).values()), expected, rtol=1e-10)
     seconds_of = limited[:95_000].reshape(95, 1000, 3)
-    np.testing.assert_allclose(limited_history[:95], np.sqrt(np.mean(seconds_of**2, axis=1)), rtol=1e-10)
+    np.testing.assert_allclose(history.rms[:95], np.sqrt(np.mean(seconds_of**2, axis=1)), rtol=1e-10)
 
 
 @pytest.mark.property

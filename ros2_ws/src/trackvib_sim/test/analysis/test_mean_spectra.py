@@ -6,6 +6,7 @@ from scipy import signal
 from trackvib_sim.analysis import mean_spectra
 from trackvib_sim.analysis.lines import known_lines
 from trackvib_sim.analysis.mean_spectra import MeanSpectra
+from trackvib_sim.analysis.motion import MeanMotion
 from trackvib_sim.analysis.vibration import psd
 
 RATE = 1000.0
@@ -61,7 +62,9 @@ def test_lines_hold_the_level_of_their_sines():
     amplitudes = {80.0: 2.0, 160.0: 1.0, 240.0: 0.5, 55.0: 4.0}
     wave = sum(a * np.sin(2.0 * np.pi * f * time) for f, a in amplitudes.items())
     chassis = np.outer(wave, (1.0, 2.0, 3.0))
-    lines = known_lines(spectra_of(chassis, 0.5 * chassis), 10.0, 0.0, 0.125, 1650.0, (0.05, 2.0, 50.0))
+    lines = known_lines(
+        spectra_of(chassis, 0.5 * chassis), MeanMotion(10.0, 0.0, 1650.0, 0.0), 0.125, (0.05, 2.0, 50.0)
+    )
     # order 0.05 lies below what can be told from rest, order 50 beyond half the rate
     assert [line.name for line in lines] == ["link passing 1", "link passing 2", "link passing 3", "engine order 2"]
     for line in lines:
@@ -73,10 +76,13 @@ def test_lines_hold_the_level_of_their_sines():
 
 
 @pytest.mark.analytic
-def test_the_band_widens_with_an_unsteady_speed():
+def test_the_band_widens_with_unsteady_speeds():
     """Two deviations of the speed to either side, times the harmonic, beside what the window spreads."""
     spectra = spectra_of(*np.random.default_rng(1).normal(size=(2, 5000, 3)))
-    first, second, _ = known_lines(spectra, 10.0, 0.25, 0.125, float("nan"), (2.0,))
+    first, second, _, order = known_lines(spectra, MeanMotion(10.0, 0.25, 1200.0, 30.0), 0.125, (3.0,))
     assert (first.low, first.high) == (80.0 - 6.0, 80.0 + 6.0)
     assert (second.low, second.high) == (160.0 - 10.0, 160.0 + 10.0)
-    assert known_lines(spectra, 0.0, 0.0, 0.125, 0.0, (2.0,)) == ()
+    assert (order.low, order.high) == (60.0 - 5.0, 60.0 + 5.0)
+    assert known_lines(spectra, MeanMotion(0.0, 0.0, 0.0, 0.0), 0.125, (2.0,)) == ()
+    unknown = MeanMotion(*[float("nan")] * 4)
+    assert known_lines(spectra, unknown, float("nan"), (2.0,)) == ()

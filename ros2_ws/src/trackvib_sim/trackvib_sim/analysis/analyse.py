@@ -1,20 +1,22 @@
 """From a recording to its `Analysis`: a table of contents."""
 
 from collections.abc import Callable
-from math import hypot
-
-import numpy as np
+from math import hypot, inf
 
 from ..bags.recording import Recording
 from ..numerics.units import NANO
-from .acceleration_numbers import measure_accelerations
+from .acceleration_numbers import axis_numbers, measure_accelerations
+from .campbell import campbells
 from .history import build_history
 from .levels import build_bins
-from .lines import find_lines
+from .lines import known_lines, missing_causes, read_causes
 from .loop_health import drive, loop_health, mount_energy
-from .mount_numbers import currents, moments, mount_numbers
+from .motion import mean_motion
+from .mount_numbers import currents, mount_numbers
 from .notes import find_notes
-from .numbers import Analysis
+from .numbers import INTERVAL, SPEED_BAND, Analysis
+from .orders import track_orders
+from .parts import build_parts, numbers_in_parts
 from .segments import find_segments
 from .vibration import band
 
@@ -23,6 +25,8 @@ def analyse(
     recording: Recording,
     settle: float | None = None,
     on_progress: Callable[[int, int], None] = lambda done, total: None,
+    interval: float = INTERVAL,
+    speed_band: float = SPEED_BAND,
 ) -> Analysis:
     """Return the `Analysis` of a `bags.recording.Recording`.
 
@@ -33,13 +37,18 @@ def analyse(
         Time from the start that does not count, `SHORTEST_SETTLING` or more, s; by default `settling_of`.
     on_progress : callable
         Is told now and then how many samples of how many have been looked at.
+    interval : float
+        Length of the intervals of way that numbers are given by, m.
+    speed_band : float
+        Width of the bands of speed, likewise, m/s.
 
     Raises
     ------
     TooShort
         No segment without gaps leaves a second to be measured.
     ValueError
-        The settling time is too short, the sensors differ in their rates, or their stamps cannot be a time base.
+        The settling time is too short, an interval or a band is not above 0, the sensors differ in their rates, or
+        their stamps cannot be a time base.
 
     Examples
     --------
@@ -50,12 +59,18 @@ def analyse(
     >>> bool(analysis.sensors["powertrain"]["z"].rms > 0.0)  # m/s^2, 0.5 Hz and above
     True
     """
+    for name, value in (("interval", interval), ("speed_band", speed_band)):
+        if not 0.0 < value < inf:
+            raise ValueError(f"{name} is {value:g}, must be a number above 0")
     segments = find_segments(recording, settle)
     loop = loop_health(recording)
     bins = build_bins(segments.begin, segments.last)
-    sensors, spectra, levels = measure_accelerations(recording, segments, bins, on_progress)
-    speed, speed_deviation = _speed(recording.odometry, segments.settled)
-    engine_speed, lines, why_fewer = find_lines(recording, spectra, speed, speed_deviation)
+    parts = build_parts(recording, segments.settled, interval, speed_band)
+    levels, spectra = measure_accelerations(recording, segments, bins, parts, on_progress)
+    sensors = axis_numbers(levels)
+    motion = mean_motion(recording, segments.settled)
+    pitch, orders, no_vehicle = read_causes(recording)
+    order_levels, order_spectra = track_orders(recording, segments, orders)
     mounts, answers, energy = recording.mounts, recording.answers, mount_energy(recording)
     names, (force, power) = recording.mounting.names, drive(recording)
     return Analysis(
@@ -66,16 +81,19 @@ def analyse(
         measured=segments.measured,
         rate=segments.rate,
         band=band(segments.rate),
-        speed=speed,
-        speed_deviation=speed_deviation,
-        engine_speed=engine_speed,
+        **motion._asdict(),
         drive_force=force,
         drive_power=power,
         sensors=sensors,
         total_weighted={
             sensor: hypot(*(numbers.rms_weighted for numbers in axes.values())) for sensor, axes in sensors.items()
         },
-        lines=lines,
+        absorbed_power={sensor: found.absorbed_power() for sensor, found in levels.items()},
+        lines=known_lines(spectra, motion, pitch, orders),
+        **numbers_in_parts(parts, levels, recording, segments),
+        order_levels=order_levels,
+        order_spectra=order_spectra,
+        campbell=campbells(recording, segments, pitch, orders),
         mounts={} if mounts is None else mount_numbers(mounts, names, segments.settled),
         demand={} if answers is None else currents(*answers, names, segments.settled),
         mount_energy=None if energy is None else energy._asdict(),
@@ -84,13 +102,5 @@ def analyse(
         timing=segments.timing,
         spectra=spectra,
         history=build_history(recording, bins, levels),
-        notes=(*find_notes(recording, segments), *why_fewer),
+        notes=(*find_notes(recording, segments), *missing_causes(recording, motion), *no_vehicle),
     )
-
-
-def _speed(odometry, settled):
-    """Return mean and standard deviation of the hull's speed [m/s] after a stamp [ns]; nan without odometry."""
-    if odometry is None:
-        return np.nan, np.nan
-    found = moments(odometry.stamp, odometry.speed[:, None], settled)
-    return float(found.mean[0]), float(found.deviation[0])

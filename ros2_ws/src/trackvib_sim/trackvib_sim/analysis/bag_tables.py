@@ -21,17 +21,20 @@ UNITS = {
 
 
 def write_tables(analyses, folder):
-    """Write `numbers.json`, `numbers.csv`, `spectra.parquet` and `history.parquet` of some `Analysis`es to a folder."""
+    """Write the tables of some `Analysis`es to a folder; those of which no bag has anything are left out."""
     document = {"units": UNITS, "bags": [_plain(analysis) for analysis in analyses]}
     text = json.dumps(_without_nan(document), indent=2, allow_nan=False, ensure_ascii=False)
     (folder / "numbers.json").write_text(text + "\n", encoding="utf-8")
     found = [row for analysis in analyses for row in rows(analysis)]
     columns = [pa.array(column, from_pandas=True) for column in zip(*found, strict=True)]  # nan becomes an empty cell
     csv.write_csv(pa.table(dict(zip(COLUMNS, columns, strict=True))), folder / "numbers.csv")
-    for name, columns_of in (("spectra", spectra_columns), ("history", history_columns)):
-        tables = [_table(analysis.bag, columns_of(analysis)) for analysis in analyses]
-        # bags may differ in their mounts
-        parquet.write_table(pa.concat_tables(tables, promote_options="default"), folder / f"{name}.parquet")
+    for name, columns_of in _FILES.items():
+        text = name.endswith(".csv")
+        tables = [_table(analysis.bag, columns, text) for analysis in analyses if (columns := columns_of(analysis))]
+        if tables:
+            # bags may differ in their mounts and sensors
+            table = pa.concat_tables(tables, promote_options="default")
+            (csv.write_csv if text else parquet.write_table)(table, folder / name)
 
 
 def rows(analysis):
@@ -41,7 +44,8 @@ def rows(analysis):
     for sensor, axes in analysis.sensors.items():
         for axis, of_axis in axes.items():
             yield from _of(bag, sensor, axis, of_axis)
-        yield bag, sensor, "", "total_weighted", analysis.total_weighted[sensor], UNITS["Analysis"]["total_weighted"]
+        for name in ("total_weighted", "absorbed_power"):
+            yield bag, sensor, "", name, getattr(analysis, name)[sensor], UNITS["Analysis"][name]
     for line in analysis.lines:
         yield bag, "run", "", f"frequency of {line.name}", line.frequency, UNITS["Line"]["frequency"]
         for sensor, axes in line.rms.items():
@@ -89,27 +93,78 @@ def history_columns(analysis):
     for sensor in SENSORS:
         for name in ("rms", "rms_weighted"):
             columns |= _by(AXES, f"{sensor}_{name}", getattr(history, name)[sensor], units[name])
+        columns[f"{sensor}_absorbed_power"] = history.absorbed_power[sensor], units["absorbed_power"]
     for name in ("current", "power_dissipated", "travel"):
         columns |= _by(history.mounts, name, getattr(history, name), units[name])
     return columns
+
+
+def records_columns(records):
+    """Return columns and units by name of records of one kind, a row a record; of a dict a column an entry."""
+    rows = [{name: cell for field in fields(record) for name, cell in _cells(record, field)} for record in records]
+    return {name: (np.array([row[name][0] for row in rows]), unit) for name, (_, unit) in (rows or [{}])[0].items()}
+
+
+def _cells(record, field):
+    """Iterate over name and (number, unit) of a field: of itself, by sensor, or by sensor and axis."""
+    value, unit = getattr(record, field.name), field.metadata["unit"]
+    if not isinstance(value, dict):
+        yield field.name, (value, unit)
+        return
+    for sensor, of_sensor in value.items():
+        name = f"{sensor}_{field.name}"
+        if isinstance(of_sensor, dict):
+            yield from ((f"{name}_{axis}", (number, unit)) for axis, number in of_sensor.items())
+        else:
+            yield name, (of_sensor, unit)
+
+
+def order_columns(analysis):
+    """Return columns and units by name of the spectra over revolutions, a row an engine speed and order."""
+    spectra, units = analysis.order_spectra, UNITS["OrderSpectra"]
+    if spectra is None:
+        return {}
+    shape = len(spectra.engine_speed), len(spectra.order)
+    columns = {
+        "engine_speed": (np.repeat(spectra.engine_speed, shape[1]), units["engine_speed"]),
+        "order": (np.tile(spectra.order, shape[0]), units["order"]),
+    }
+    for sensor, psd in spectra.psd.items():
+        columns |= _by(AXES, f"{sensor}_psd", psd.reshape(-1, len(AXES)), units["psd"])
+    return columns
+
+
+def campbell_columns(diagram):
+    """Return columns and units by name of a `Campbell`, a row a speed and frequency."""
+    shape, units = (len(diagram.value), len(diagram.frequency)), UNITS["Campbell"]
+    return {
+        diagram.over.replace(" ", "_"): (np.repeat(diagram.value, shape[1]), diagram.unit),
+        "frequency": (np.tile(diagram.frequency, shape[0]), units["frequency"]),
+    } | {f"{sensor}_psd_z": (psd.ravel(), units["psd"]) for sensor, psd in diagram.psd.items()}
+
+
+def _campbell_over(over):
+    return lambda analysis: next((campbell_columns(each) for each in analysis.campbell if each.over == over), {})
 
 
 def _by(parts, name, values, unit):
     return {f"{name}_{part}": (values[:, k], unit) for k, part in enumerate(parts[: values.shape[1]])}
 
 
-def _table(bag, columns):
+def _table(bag, columns, empty):
+    """The columns of one bag; with `empty` nan becomes an empty cell."""
     count = len(next(iter(columns.values()))[0])
     arrays = {"bag": pa.array([bag] * count)}
-    arrays |= {name: pa.array(np.ascontiguousarray(values)) for name, (values, _) in columns.items()}
+    arrays |= {name: pa.array(np.ascontiguousarray(values), from_pandas=empty) for name, (values, _) in columns.items()}
     units = {name: {"unit": unit} for name, (_, unit) in columns.items()}
     schema = pa.schema([pa.field(name, array.type, metadata=units.get(name)) for name, array in arrays.items()])
     return pa.table(list(arrays.values()), schema)
 
 
 def _plain(analysis):
-    document = asdict(replace(analysis, spectra=None, history=None))  # these lie in the Parquet files
-    del document["spectra"], document["history"]
+    document = asdict(replace(analysis, spectra=None, history=None, order_spectra=None, campbell=()))
+    for name in ("spectra", "history", "order_spectra", "campbell"):  # these lie in the Parquet files
+        del document[name]
     return document
 
 
@@ -120,3 +175,15 @@ def _without_nan(value):
     if isinstance(value, (list, tuple)):
         return [_without_nan(each) for each in value]
     return None if isinstance(value, float) and not isfinite(value) else value
+
+
+_FILES = {  # file -> what its columns are of an `Analysis`
+    "spectra.parquet": spectra_columns,
+    "history.parquet": history_columns,
+    "by_way.csv": lambda analysis: records_columns(analysis.by_way),
+    "by_speed.csv": lambda analysis: records_columns(analysis.by_speed),
+    "order_levels.csv": lambda analysis: records_columns(analysis.order_levels),
+    "order_spectra.parquet": order_columns,
+    "campbell_engine_speed.parquet": _campbell_over("engine speed"),
+    "campbell_speed.parquet": _campbell_over("speed"),
+}

@@ -8,7 +8,7 @@ from .stamps import BLOCK, blocks
 
 def build_history(recording, bins, levels):
     """Return the `History` of a recording over `levels.Bins`, given the `Levels` by sensor."""
-    rms, weighted = zip(*(levels[sensor].history() for sensor in SENSORS), strict=True)
+    of_sensors = {sensor: levels[sensor].history() for sensor in SENSORS}
     mounts, odometry = recording.mounts, recording.odometry
     mounting = recording.mounting
     current = np.full((bins.count, mounting.coils), np.nan)
@@ -19,12 +19,15 @@ def build_history(recording, bins, levels):
         travel = bin_means(bins, mounts.stamp, mounts.deflection[:, :, 2])[1]
     if odometry is not None:
         speed = bin_means(bins, odometry.stamp, odometry.speed[:, None])[0][:, 0]
-    by_sensor = (dict(zip(SENSORS, each, strict=True)) for each in (rms, weighted))
+    by_sensor = (
+        {sensor: getattr(found, name) for sensor, found in of_sensors.items()}
+        for name in ("rms", "rms_weighted", "absorbed_power")
+    )
     return History(bins.middle, *by_sensor, speed, current, power, travel, mounting.names)
 
 
 def bin_means(bins, stamp, values):
-    """Return mean and standard deviation (n, m) of columns (k, m) in each of `levels.Bins`."""
+    """Return mean and standard deviation (n, m) of columns (k, m) in each of `levels.Bins` or `parts.Parts`."""
     count = np.zeros(bins.count)
     total, squares = np.zeros((2, bins.count, values.shape[1]))
     for block in blocks(len(stamp), BLOCK):

@@ -4,11 +4,13 @@ A block is filtered with so much before and after it that the filters have forgo
 those of the whole segment filtered in one go.
 """
 
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
 
 from ..numerics.units import NANO
+from .absorbed_power import absorbed_power
 from .iso2631 import LEAST_RATE, weighted
 from .numbers import AxisNumbers
 from .stamps import blocks
@@ -50,18 +52,44 @@ def build_bins(begin, last):
     return Bins(begin, width, -(-length // width))
 
 
-class Levels:
-    """What has been summed up of one sensor."""
+class PartLevels(NamedTuple):
+    """Levels of one sensor in n parts of a run; nan where there is nothing."""
 
-    def __init__(self, rate, bins):
-        self._rate, self._bins = rate, bins
+    count: np.ndarray  # (n,) samples
+    rms: np.ndarray  # (n, 3) band-limited, m/s^2
+    rms_weighted: np.ndarray  # (n, 3) m/s^2
+    absorbed_power: np.ndarray  # (n,) mean, W
+
+
+class _Sums:
+    """Sums over the samples of each of some parts, which are `Bins` or `parts.Parts`."""
+
+    def __init__(self, parts):
+        self._parts = parts
+        self._count, self._total = np.zeros(parts.count), np.zeros((parts.count, 7))
+
+    def add(self, stamp, powers):
+        count, total = self._parts.sums(stamp, powers)
+        self._count += count
+        self._total += total
+
+    def levels(self):
+        mean = self._total / np.where(self._count > 0, self._count, np.nan)[:, None]
+        return PartLevels(self._count, np.sqrt(mean[:, :3]), np.sqrt(mean[:, 3:6]), mean[:, 6])
+
+
+class Levels:
+    """What has been summed up of one sensor: over all that counts, over parts of it by name, and in bins of the bag."""
+
+    def __init__(self, rate, bins, parts=MappingProxyType({})):
+        self._rate = rate
+        self._bins, self._parts = _Sums(bins), {name: _Sums(each) for name, each in parts.items()}
         self._count = 0
         self._origin = None
         self._raw, self._raw_squared, self._limited = np.zeros((3, 3))
         self._squared, self._fourth = np.zeros((2, 3))
         self._peak, self._weighted_peak, self._running = np.zeros((3, 3))
-        self._in_bin = np.zeros(bins.count)
-        self._history, self._weighted_history = np.zeros((2, bins.count, 3))
+        self._absorbed = 0.0
 
     def add(self, stamp, acceleration, measured):
         """Add a segment, and say after each block how much of it is done.
@@ -80,24 +108,27 @@ class Levels:
             begin = max(block.start - margin, 0)
             around = np.array(acceleration[begin : block.stop + margin])
             limited = band_limited(around, self._rate)
-            perceived = self._perceived(around)
+            perceived, absorbed = self._perceived(around)
+            powers = np.column_stack((np.square(limited), np.square(perceived), absorbed))
             inner = slice(block.start - begin, block.stop - begin)
-            count, sums = self._bins.sums(stamp[block], np.square(np.hstack((limited[inner], perceived[inner]))))
-            self._in_bin += count
-            self._history += sums[:, :3]
-            self._weighted_history += sums[:, 3:]
+            self._bins.add(stamp[block], powers[inner])
             first = max(block.start, measured) - begin
             if first < inner.stop:
-                self._measure(*(each[first : inner.stop] for each in (around, limited, perceived)))
+                counting = slice(first, inner.stop)
+                for each in self._parts.values():
+                    each.add(stamp[begin + first : block.stop], powers[counting])
+                self._absorbed += absorbed[counting].sum()
+                self._measure(*(each[counting] for each in (around, limited, perceived)))
                 before = max(first + 1 - running, measured - begin)
                 self._run(np.square(perceived[before : inner.stop]), running)
             yield block.stop
 
     def _perceived(self, acceleration):
+        """Return weighted accelerations (k, 3) and the absorbed power (k,); nan where samples come too slowly."""
         if self._rate < LEAST_RATE:
-            return np.full_like(acceleration, np.nan)
+            return np.full_like(acceleration, np.nan), np.full(len(acceleration), np.nan)
         columns = [weighted(column, name, self._rate) for column, name in zip(acceleration.T, WEIGHTINGS, strict=True)]
-        return np.stack(columns, axis=1)
+        return np.stack(columns, axis=1), absorbed_power(acceleration[:, 2], self._rate)
 
     def _measure(self, raw, limited, perceived):
         if self._origin is None:
@@ -136,8 +167,14 @@ class Levels:
             )
         return [AxisNumbers(*map(float, numbers)) for numbers in zip(*columns, strict=True)]
 
+    def absorbed_power(self):
+        """Return the mean absorbed power of the vertical [W]."""
+        return float(self._absorbed / self._count)
+
     def history(self):
-        """Return the band-limited and the weighted RMS (n, 3) in each bin."""
-        with np.errstate(invalid="ignore"):
-            count = np.where(self._in_bin > 0, self._in_bin, np.nan)[:, None]
-            return np.sqrt(self._history / count), np.sqrt(self._weighted_history / count)
+        """Return the `PartLevels` in the bins of the bag, over all samples."""
+        return self._bins.levels()
+
+    def parts(self):
+        """Return the `PartLevels` of the parts by name, over the samples that count."""
+        return {name: each.levels() for name, each in self._parts.items()}

@@ -1,8 +1,8 @@
 """All that `analyze` says of a bag, as plain data. Each number carries its unit; `docs/bags.md` defines each.
 
-Sensors are "chassis" and "powertrain", axes "x" (forward), "y" (left) and "z" (up); mounts have the names that the bag
-tells, "left" and "right" of one that tells none. A number that cannot be had is nan, as the current of a mount without
-a coil, and the notes of the `Analysis` say why.
+Sensors are "chassis" and "powertrain", and those further ones of the bag where nothing else is said; axes are "x"
+(forward), "y" (left) and "z" (up); mounts have the names that the bag tells, "left" and "right" of one that tells none.
+A number that cannot be had is nan, as the current of a mount without a coil, and the notes of the `Analysis` say why.
 """
 
 from dataclasses import dataclass, field
@@ -11,6 +11,8 @@ import numpy as np
 
 AXES = ("x", "y", "z")
 SENSORS = ("chassis", "powertrain")
+INTERVAL = 50.0  # m of way, by which numbers are given
+SPEED_BAND = 2.0  # m/s, likewise
 
 
 def _number(unit):
@@ -40,6 +42,76 @@ class Line:
     low: float = _number("Hz")  # of the band
     high: float = _number("Hz")
     rms: dict = _number("m/s²")  # sensor -> axis -> RMS in the band
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of the measured time, between two values of something, and what was measured in it."""
+
+    low: float
+    high: float
+    measured: float = _number("s")  # time that counts
+    speed: float = _number("m/s")  # mean
+    engine_speed: float = _number("r/min")  # mean; nan if it was not recorded
+    rms: dict = _number("m/s²")  # sensor -> axis -> band-limited RMS
+    rms_weighted: dict = _number("m/s²")  # sensor -> axis, ISO 2631-1
+    absorbed_power: dict = _number("W")  # sensor -> of the vertical
+
+
+@dataclass(frozen=True)
+class WayInterval(Part):
+    """The time in which the hull was in an interval of its way."""
+
+    low: float = _number("m")  # distance where it begins
+    high: float = _number("m")
+
+
+@dataclass(frozen=True)
+class SpeedBand(Part):
+    """The time in which the hull's speed, averaged over 1 s, was in a band."""
+
+    low: float = _number("m/s")
+    high: float = _number("m/s")
+
+
+@dataclass(frozen=True)
+class OrderLevel:
+    """One order of the engine while it turned at one speed."""
+
+    engine_speed: float = _number("r/min")  # middle of a band
+    order: float = _number("1/revolution")
+    windows: int = _number("-")  # of revolutions, over which this is the mean
+    rms: dict = _number("m/s²")  # sensor -> axis -> RMS in a band about the order
+
+
+@dataclass(frozen=True)
+class OrderSpectra:
+    """Spectra over the engine's revolutions instead of time, in bands of its speed; nan where it never turned so."""
+
+    engine_speed: np.ndarray = _number("r/min")  # (n,) middles
+    order: np.ndarray = _number("1/revolution")  # (f,)
+    windows: np.ndarray = _number("-")  # (n,) how many the means are of
+    psd: dict = _number("(m/s²)²/order")  # sensor -> (n, f, 3), one-sided
+
+
+@dataclass(frozen=True)
+class Campbell:
+    """Spectra of the vertical in bands of a speed; nan where there was none."""
+
+    over: str  # "engine speed" or "speed", of the hull
+    unit: str  # of it
+    value: np.ndarray  # (n,) middles of its bands
+    frequency: np.ndarray = _number("Hz")  # (f,)
+    psd: dict = _number("(m/s²)²/Hz")  # sensor -> (n, f), one-sided
+    rays: tuple  # of `Ray`s
+
+
+@dataclass(frozen=True)
+class Ray:
+    """Where a line of the spectrum with a known cause lies in a Campbell diagram: frequency over speed."""
+
+    name: str  # as of a `Line`, and the gear if it depends on it
+    ends: tuple  # two pairs of speed and frequency [Hz]
 
 
 @dataclass(frozen=True)
@@ -121,6 +193,7 @@ class History:
     time: np.ndarray = _number("s")  # (n,) middle of each bin, from the start of the bag
     rms: dict = _number("m/s²")  # sensor -> (n, 3) band-limited
     rms_weighted: dict = _number("m/s²")  # sensor -> (n, 3)
+    absorbed_power: dict = _number("W")  # sensor -> (n,) mean, of the vertical
     speed: np.ndarray = _number("m/s")  # (n,) mean
     current: np.ndarray = _number("A")  # (n, coils) mean in the coils
     power_dissipated: np.ndarray = _number("W")  # (n, mounts) mean
@@ -151,12 +224,19 @@ class Analysis:
     band: tuple = _number("Hz")  # low and high end of "band-limited"
     speed: float = _number("m/s")  # mean forward speed of the hull
     speed_deviation: float = _number("m/s")  # its standard deviation
-    engine_speed: float = _number("r/min")  # as the simulator was told
+    engine_speed: float = _number("r/min")  # mean as recorded, else as the simulator was told
+    engine_speed_deviation: float = _number("r/min")  # its standard deviation, 0 where it was only told
     drive_force: float = _number("N")  # work of the drive a metre: the running resistance where speed is steady
     drive_power: float = _number("W")  # work of the drive a second; both from the start, as the simulator told them
     sensors: dict  # sensor -> axis -> AxisNumbers
     total_weighted: dict = _number("m/s²")  # sensor -> root of the sum of the three rms_weighted squared
+    absorbed_power: dict = _number("W")  # sensor -> mean, of the vertical
     lines: tuple  # `Line`s, link passing first
+    by_way: tuple  # `WayInterval`s in which anything was measured; empty if the bag does not tell the way
+    by_speed: tuple  # `SpeedBand`s, likewise
+    order_levels: tuple  # `OrderLevel`s; empty where the engine's recorded speed does not vary
+    order_spectra: OrderSpectra | None  # likewise
+    campbell: tuple  # `Campbell`s over the speeds that vary
     mounts: dict  # mount -> MountNumbers; empty without mount states
     demand: dict  # coil, called as its mount -> Current that the controller asked for; empty without answers
     mount_energy: dict | None = _number("J")  # the simulator's own account of the whole run, if it told one

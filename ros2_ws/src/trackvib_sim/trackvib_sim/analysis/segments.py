@@ -13,6 +13,7 @@ from .settling import SHORTEST_SETTLING, VEHICLE_BEHIND, settling_time
 from .stamps import start_of, timing
 
 SHORTEST_MEASURING = 1.0  # s
+SLOWEST = 10.0  # Hz, of a further sensor: half of it is a band in which levels mean something
 _IMUS = (topics.CHASSIS_IMU, topics.POWERTRAIN_IMU)
 
 
@@ -78,6 +79,21 @@ def find_segments(recording, settle=None):
             f"the run is {(last - begin) / NANO:g} s long, RMS values need {settle + SHORTEST_MEASURING:g} s ({needed})"
         )
     return Segments(begin, last, settle, NANO / period, found, {end: each for end, (each, _) in timings.items()})
+
+
+def segments_of(stamp, segments):
+    """Return the rate [Hz] of a further sensor with stamps (k,) [ns] and its own `Segment`s, as of a pair of it.
+
+    A sensor slower than `SLOWEST` has none. What counts after the start of the bag is as in the `Segments` of chassis
+    and powertrain.
+    """
+    timed, breaks = timing(stamp, segments.begin) if len(stamp) > 1 else (None, ())
+    if timed is None or not 0.0 < timed.period <= 1.0 / SLOWEST:
+        return 0.0, []
+    period = timed.period * NANO
+    twice = (stamp, stamp), (breaks, breaks)
+    least = SHORTEST_SETTLING, SHORTEST_MEASURING
+    return NANO / period, common_segments(*twice, period, segments.begin, segments.settle, *least)
 
 
 def settling_of(recording):

@@ -11,6 +11,7 @@ def summarise(analysis):
         "rms_mps2": {
             sensor: {axis: numbers.rms for axis, numbers in axes.items()} for sensor, axes in analysis.sensors.items()
         },
+        "absorbed_power_W": {sensor: _number(power) for sensor, power in analysis.absorbed_power.items()},
         "drive_N": _number(analysis.drive_force),
         "drive_W": _number(analysis.drive_power),
         "mounts_J": analysis.mount_energy,

@@ -1,6 +1,7 @@
 """`trackvib analyze`: bags are read and measured one after the other; tables on the screen, files in one new folder."""
 
 from datetime import datetime
+from math import isnan
 from os.path import realpath
 from pathlib import Path
 
@@ -10,7 +11,7 @@ from rich.table import Table
 from ..analysis.analyse import analyse
 from ..analysis.bag_tables import write_tables
 from ..analysis.levels import WEIGHTINGS
-from ..analysis.numbers import AXES
+from ..analysis.numbers import AXES, SENSORS
 from ..analysis.report.page import write_report
 from ..analysis.report.report_data import build_report_data
 from ..bags.files import bag_files
@@ -19,7 +20,7 @@ from ..console import Description, Terminal
 from .result_folder import CommandError, all_or_nothing
 
 
-def run_analyze(bags, settle, out):
+def run_analyze(bags, settle, interval, speed_band, out):
     """Analyse some bags; see `analyze_cli`.
 
     Raises
@@ -37,7 +38,8 @@ def run_analyze(bags, settle, out):
             for bag in bags:
                 recording = read_recording(bag, _reporter(progress, f"reading {bag}"))
                 try:
-                    analyses.append(analyse(recording, settle, _reporter(progress, f"measuring {bag}")))
+                    reporter = _reporter(progress, f"measuring {bag}")
+                    analyses.append(analyse(recording, settle, reporter, interval, speed_band))
                     report_data_list.append(build_report_data(recording, analyses[-1]))
                 except ValueError as error:
                     raise CommandError(f"bag {bag!r}: {error}") from None
@@ -49,7 +51,7 @@ def run_analyze(bags, settle, out):
         console.print(f"bag {number}: {analysis.bag}: {length}", soft_wrap=True)
         for note in analysis.notes:
             console.print(f"  {note}", soft_wrap=True)
-    for table in (_levels(analyses), _lines(analyses), _mounts(analyses)):
+    for table in (_levels(analyses), _speeds(analyses), _lines(analyses), _mounts(analyses)):
         if table.row_count:
             console.print(table)
     console.print(f"left in {folder}: {', '.join(sorted(each.name for each in folder.iterdir()))}", soft_wrap=True)
@@ -76,15 +78,32 @@ def _reporter(progress, description):
 
 
 def _levels(analyses):
-    table = _table("acceleration, m/s²: band-limited; weighted by ISO 2631-1 (VDV in m/s^1.75)", ("",))
-    for name in ("RMS", "peak", "weighted", "crest", "MTVV", "VDV"):
+    title = "acceleration, m/s²: band-limited; weighted by ISO 2631-1 (VDV in m/s^1.75); power absorbed by a driver, W"
+    table = _table(title, ("",))
+    for name in ("RMS", "peak", "weighted", "crest", "MTVV", "VDV", "power"):
         table.add_column(name, justify="right")
-    for sensors in _sections(table, analyses, "sensors"):
-        for sensor, axes in sensors.items():
+    for analysis in _sections(table, analyses, "sensors"):
+        for sensor, axes in analysis.sensors.items():
             for axis, n in axes.items():
                 weighted = f"{WEIGHTINGS[AXES.index(axis)]} {n.rms_weighted:.3f}"
-                rest = (f"{value:.3f}" for value in (n.crest_factor, n.mtvv, n.vdv))
-                table.add_row(f"{sensor} {axis}", f"{n.rms:.3f}", f"{n.peak:.3f}", weighted, *rest)
+                rest = (n.crest_factor, n.mtvv, n.vdv, *((analysis.absorbed_power[sensor],) if axis == "z" else ()))
+                table.add_row(
+                    f"{sensor} {axis}", f"{n.rms:.3f}", f"{n.peak:.3f}", weighted, *map("{:.3f}".format, rest)
+                )
+    return table
+
+
+def _speeds(analyses):
+    """By speed, of bags in which it varies."""
+    table = _table("by speed: vertical RMS, m/s², and power absorbed by a driver, W", ("speed, m/s",))
+    for name in ("time, s", "engine, r/min", *(f"{sensor}{what}" for sensor in SENSORS for what in ("", ", W"))):
+        table.add_column(name, justify="right")
+    for analysis in _sections(table, [each for each in analyses if len(each.by_speed) > 1], "by_speed"):
+        for band in analysis.by_speed:
+            levels = (number for sensor in SENSORS for number in (band.rms[sensor]["z"], band.absorbed_power[sensor]))
+            engine = "" if isnan(band.engine_speed) else f"{band.engine_speed:.0f}"
+            words = f"{band.low:g} to {band.high:g}", f"{band.measured:.1f}", engine
+            table.add_row(*words, *(f"{level:.3f}" for level in levels))
     return table
 
 
@@ -92,8 +111,8 @@ def _lines(analyses):
     table = _table("RMS about lines with a known cause, m/s²", ("", "Hz", ""))
     for axis in AXES:
         table.add_column(axis, justify="right")
-    for lines in _sections(table, analyses, "lines"):
-        for line in lines:
+    for analysis in _sections(table, analyses, "lines"):
+        for line in analysis.lines:
             names = (line.name, f"{line.frequency:.1f}")
             for sensor, axes in line.rms.items():
                 table.add_row(*names, sensor, *(f"{level:.3f}" for level in axes.values()))
@@ -105,8 +124,8 @@ def _mounts(analyses):
     table = _table("mounts: vertical travel (mm) and force (kN) about their means, heat, current (A)", ("",))
     for name in ("travel", "peak", "force", "peak", "heat, W", "mean", "least", "most"):
         table.add_column(name, justify="right")
-    for mounts in _sections(table, analyses, "mounts"):
-        for name, mount in mounts.items():
+    for analysis in _sections(table, analyses, "mounts"):
+        for name, mount in analysis.mounts.items():
             z, current = mount.axes["z"], mount.current
             lengths, forces = (z.travel_rms, z.travel_peak), (z.force_rms, z.force_peak)
             numbers = (*(1e3 * each for each in lengths), *(1e-3 * each for each in forces), mount.power_dissipated,
@@ -116,13 +135,13 @@ def _mounts(analyses):
 
 
 def _sections(table, analyses, name):
-    """Iterate over what some analyses have under a name; each gets a part of a table, numbered if there are several."""
+    """Iterate over analyses that have something under a name; each gets a part of a table, numbered of several."""
     for number, analysis in enumerate(analyses, 1):
-        if found := getattr(analysis, name):
+        if getattr(analysis, name):
             table.add_section()
             if len(analyses) > 1:
                 table.add_row(f"bag {number}", style="bold")
-            yield found
+            yield analysis
 
 
 def _table(title, words):

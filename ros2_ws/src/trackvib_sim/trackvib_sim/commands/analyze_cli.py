@@ -2,6 +2,7 @@
 
 import click
 
+from ..analysis.numbers import INTERVAL, SPEED_BAND
 from ..analysis.settling import SHORTEST_SETTLING
 from .endings import fail
 from .option_types import FiniteRange, largest_chunk_option
@@ -19,15 +20,32 @@ from .option_types import FiniteRange, largest_chunk_option
     "settle, too.  [default: until the recorded run has settled, by its parameters]",
 )
 @click.option(
+    "--interval",
+    type=FiniteRange(1.0, 1e6),
+    default=INTERVAL,
+    metavar="M",
+    show_default=True,
+    help="Length of the intervals of way by which numbers are given, in m.",
+)
+@click.option(
+    "--speed-band",
+    type=FiniteRange(0.1, 1e3),
+    default=SPEED_BAND,
+    metavar="V",
+    show_default=True,
+    help="Width of the bands of speed by which numbers are given, in m/s.",
+)
+@click.option(
     "--out",
     type=click.Path(file_okay=False),
     default=None,
     help="Folder to make for the results.  [default: analyses/<time>]",
 )
-def analyze(bags, settle, out):
+def analyze(bags, settle, interval, speed_band, out):
     """Turn bags into an HTML report and numbers.
 
-    RMS, ISO 2631-1, spectra, mounts and currents: report.html for the eye (of several bags a comparison), JSON, CSV and
+    RMS, ISO 2631-1 and absorbed power, by way and by speed, too; spectra, orders of the engine, mounts and currents:
+    report.html for the eye (of several bags a comparison), JSON, CSV and
     Parquet for programs.
     """
     from ..bags.errors import BagError  # imported late: --help need not wait for it
@@ -35,6 +53,6 @@ def analyze(bags, settle, out):
     from .result_folder import CommandError
 
     try:
-        run_analyze(bags, settle, out)
+        run_analyze(bags, settle, interval, speed_band, out)
     except (BagError, CommandError) as error:
         fail(error)

@@ -10,7 +10,7 @@ def _look(index):
     return BAG_COLOURS[index % len(BAG_COLOURS)], BAG_DASHES[index // len(BAG_COLOURS) % len(BAG_DASHES)]
 
 
-def _overlay(report_data_list, names, points, **options):
+def overlay(report_data_list, names, points, **options):
     """Return a line a bag; `points(report_data)` is None where a bag has none."""
     traces = []
     for index, (report_data, name) in enumerate(zip(report_data_list, names, strict=True)):
@@ -65,14 +65,14 @@ def _spectrum(report_data_list, names, column, values):
         found = report_data.analysis.spectra
         return found.frequency[1:], values(found)[1:, column]
 
-    return _overlay(report_data_list, names, points)
+    return overlay(report_data_list, names, points)
 
 
 def histories(report_data_list, names):
     """Vertical specific force: a figure a sensor."""
     figures = []
     for sensor in reversed(SENSORS):
-        traces = _overlay(
+        traces = overlay(
             report_data_list, names, lambda each, s=sensor: each.accelerations[s]["z"], width=0.8, opacity=0.75
         )
         figure = styled(go.Figure(traces), 320, f"{sensor.capitalize()}, {AXIS_NAMES['z']}")
@@ -87,7 +87,7 @@ def mount_loops(report_data_list, names):
     figures = []
     for kind, unit in (("deflection_loops", "deflection, mm"), ("velocity_loops", "velocity, m/s")):
         for mount in _of_any(getattr(each, kind) for each in report_data_list):
-            traces = _overlay(report_data_list, names, lambda each, k=kind, m=mount: _second(getattr(each, k).get(m)))
+            traces = overlay(report_data_list, names, lambda each, k=kind, m=mount: _second(getattr(each, k).get(m)))
             if traces:
                 title = f"{plain(mount.capitalize())} mount, force over {unit.split(',')[0]}"
                 figure = styled(go.Figure(traces), 340, title)
@@ -110,7 +110,7 @@ def currents(report_data_list, names):
     """Current in the coils: a figure a mount."""
     figures = []
     for coil in _of_any(each.currents for each in report_data_list):
-        traces = _overlay(report_data_list, names, lambda each, c=coil: each.currents.get(c))
+        traces = overlay(report_data_list, names, lambda each, c=coil: each.currents.get(c))
         if traces:
             figure = styled(go.Figure(traces), 300, f"{plain(coil.capitalize())} coil")
             figure.update_xaxes(title_text="time, s")

@@ -9,8 +9,10 @@ _PLACES = [(sensor, axis) for sensor in reversed(SENSORS) for axis in AXES]
 
 
 def accelerations(analyses, names):
-    """Numbers of both sensors: a table a quantity."""
-    return [_accelerations(analyses, names, quantity) for quantity in WORDS]
+    """Numbers of both sensors: a table a quantity, and one of the absorbed power."""
+    power = [(sensor, [analysis.absorbed_power[sensor] for analysis in analyses]) for sensor in reversed(SENSORS)]
+    found = [_accelerations(analyses, names, quantity) for quantity in WORDS]
+    return [*found, _compared("absorbed power, vertical z, W", power, names)]
 
 
 def _accelerations(analyses, names, quantity):

@@ -18,7 +18,7 @@ def facts(report_data):
         "road": _road(report_data) or UNKNOWN,
         "control law": _parameters_with(report_data, "law").get("law", UNKNOWN),
         "speed": _speed(report_data),
-        "engine": "" if isnan(found.engine_speed) else f"{found.engine_speed:.5g} r/min",
+        "engine": _engine(found),
         "drive": "" if isnan(found.drive_force) else _drive(found),
         "length": f"{found.duration:.6g} s; {found.measured:.6g} s count, after {found.settle:.3g} s of settling",
         "sensors": f"{found.rate:.6g} Hz; RMS values from {found.band[0]:g} to {found.band[1]:g} Hz",
@@ -39,6 +39,13 @@ def headline(report_data):
     words += [f"law {law['law']}"] if law else []
     words += [f"seed {road['seed']}"] if "seed" in road else []
     return ", ".join([*(words or names([found.bag])), f"{found.duration:.6g} s"])
+
+
+def _engine(found):
+    if isnan(found.engine_speed):
+        return ""
+    varies = f", standard deviation {found.engine_speed_deviation:.3g} r/min" if found.engine_speed_deviation else ""
+    return f"{found.engine_speed:.5g} r/min{varies}"
 
 
 def _drive(found):

@@ -1,9 +1,19 @@
 """What a report consists of: sections with figures and tables, for one bag and for several."""
 
+from math import isfinite
 from typing import NamedTuple
 
+from ..absorbed_power import RIDE_LIMIT
 from ..numbers import AXES, SENSORS
-from . import bag_figures, comparison_figures, comparison_tables, spectrogram_figures, tables
+from . import (
+    bag_figures,
+    comparison_figures,
+    comparison_tables,
+    order_figures,
+    spectrogram_figures,
+    speed_figures,
+    tables,
+)
 from .differences import differing
 from .thinning import MOST
 
@@ -11,6 +21,18 @@ _WEIGHTED = "Weighted: ISO 2631-1, Wk along z, Wd along x and y."
 _WELCH = (
     "Welch's method, windows of 1 s. Dotted: links entering the sprockets, v/p and multiples. "
     "Dashed: orders of the engine"
+)
+_PARTS = (
+    "Vertical z: RMS, and the power that a driver sitting there would absorb (dotted: 6 W, which is taken as the limit "
+    "of ride)."
+)
+_ORDERS = (
+    "Vertical z. Spectra over turns of the engine in dB re 1 (m/s²)²/order, by its speed, and RMS in a band about each "
+    "order."
+)
+_CAMPBELL = (
+    "Vertical z, level in dB re 1 (m/s²)²/Hz by speed. Dotted: links entering the sprockets, v/p and multiples. "
+    "Dashed: orders of the engine."
 )
 _STAMPS = "Stamps, not times of recording, are the time base."
 _LEVEL = "Level in dB re 1 (m/s²)²/Hz, windows of 0.5 s. Empty where samples are missing."
@@ -35,8 +57,10 @@ def of_one(report_data):
             "Both sensors sit at the ends of the MR mounts. Changes are those from chassis to powertrain; part of them "
             f"is geometry, because the ends move differently on rigid mounts, too. {_WEIGHTED}",
             [],
-            [tables.accelerations(analysis)],
+            [tables.accelerations(analysis), tables.further(analysis)],
         ),
+        Section("Along the way", _PARTS, [speed_figures.by_way(analysis)], []),
+        Section("By speed", _PARTS, [speed_figures.by_speed(analysis)], [tables.by_speed(analysis)]),
         Section(
             "Histories",
             _about_histories([analysis], "settling"),
@@ -48,6 +72,8 @@ def of_one(report_data):
         Section(
             "Link passing and engine orders", "RMS in m/s² in a band about each line.", [], [tables.lines(analysis)]
         ),
+        Section("Orders of the engine", _ORDERS, order_figures.of_sensors(analysis), [], 2),
+        Section("Campbell diagrams", _CAMPBELL, order_figures.campbells(analysis), [], 2),
         Section(
             "Spectrograms",
             _LEVEL,
@@ -83,6 +109,8 @@ def of_several(report_data_list, names):
             [comparison_figures.rms_bars(report_data_list, names)],
             [*comparison_tables.accelerations(analyses, names), *comparison_tables.mounts(analyses, names)],
         ),
+        Section("Along the way", "Vertical z, RMS.", speed_figures.along_ways(report_data_list, names), [], 2),
+        Section("By speed", "Vertical z, RMS.", speed_figures.by_speeds(report_data_list, names), [], 2),
         Section(
             "Spectra", f"{_WELCH}; both of {names[0]}.", comparison_figures.spectra(report_data_list, names), [], 3
         ),
@@ -92,6 +120,13 @@ def of_several(report_data_list, names):
             f"RMS in m/s² in a band about each line. In brackets the difference to {names[0]}.",
             [],
             comparison_tables.lines(analyses, names),
+        ),
+        Section(
+            "Orders of the engine",
+            "Powertrain, vertical z: RMS in a band about each order.",
+            order_figures.of_powertrains(report_data_list, names),
+            [],
+            2,
         ),
         Section(
             "Spectrograms",
@@ -133,6 +168,8 @@ def tiles(analysis):
         (words, tables.number(value, 3), "m/s²", f"{tables.change(value, first)} against the chassis")
         for words, value, first in found
     ]
+    if isfinite(power := analysis.absorbed_power["chassis"]):
+        tiles.append(("absorbed power, chassis z", tables.number(power, 3), "W", f"limit of ride: {RIDE_LIMIT:g} W"))
     if analysis.mounts:
         energy = sum(mount.energy_dissipated for mount in analysis.mounts.values())
         power = sum(mount.power_dissipated for mount in analysis.mounts.values())

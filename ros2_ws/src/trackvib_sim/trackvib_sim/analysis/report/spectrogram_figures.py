@@ -27,28 +27,49 @@ def of_powertrains(report_data_list, names):
 
 def _figures(spectrograms):
     """Return a figure for each pair of title and `Spectrogram`, all in the same colours."""
-    levels = np.concatenate([each.level.ravel() for _, each in spectrograms])
-    top = np.nanmax(levels) if np.isfinite(levels).any() else 0.0
-    low = max(top - RANGE, np.nanmin(levels) if np.isfinite(levels).any() else 0.0)
-    return [_figure(title, each, low, top) for title, each in spectrograms]
+    ends = ends_of([each.level for _, each in spectrograms])
+    return [
+        level_map(title, (each.time, "time", "s"), (each.frequency, "frequency", "Hz"), each.level, ends)
+        for title, each in spectrograms
+    ]
 
 
-def _figure(title, spectrogram, low, top):
+def ends_of(levels):
+    """Return the lowest and the highest level [dB] that figures of some arrays of levels tell apart."""
+    levels = np.concatenate([each.ravel() for each in levels])
+    if not np.isfinite(levels).any():
+        return 0.0, 0.0
+    return max(np.nanmax(levels) - RANGE, np.nanmin(levels)), np.nanmax(levels)
+
+
+def level_map(title, across, up, level, ends):
+    """Return a figure of levels [dB] (m, n) as colours.
+
+    Parameters
+    ----------
+    title : str
+    across, up : tuple
+        Values (n,) and (m,), what they are, and in which unit.
+    level : (m, n) array
+    ends : tuple
+        As `ends_of` returns them.
+    """
     bar = {"title": {"text": "dB", "side": "top"}, "thickness": 10, "outlinewidth": 0, "x": 1.0, "xpad": 4}
+    (x, x_words, x_unit), (y, y_words, y_unit) = across, up
     figure = go.Figure(
         go.Heatmap(
-            x=spectrogram.time,
-            y=spectrogram.frequency,
-            z=spectrogram.level,
-            zmin=low,
-            zmax=top,
+            x=x,
+            y=y,
+            z=level,
+            zmin=ends[0],
+            zmax=ends[1],
             colorscale="Cividis",
             colorbar=bar,
-            hovertemplate="%{x:.2f} s, %{y:.0f} Hz: %{z:.1f} dB<extra></extra>",
+            hovertemplate=f"%{{x:.4~g}} {x_unit}, %{{y:.4~g}} {y_unit}: %{{z:.1f}} dB<extra></extra>",
         )
     )
     styled(figure, 340, title)
     figure.update_layout(margin={"r": 58, "t": 40})
-    figure.update_xaxes(title_text="time, s", showgrid=False)
-    figure.update_yaxes(title_text="frequency, Hz", showgrid=False)
+    figure.update_xaxes(title_text=f"{x_words}, {x_unit}", showgrid=False)
+    figure.update_yaxes(title_text=", ".join(filter(None, (y_words, y_unit))), showgrid=False)
     return figure

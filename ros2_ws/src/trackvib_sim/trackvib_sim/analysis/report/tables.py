@@ -70,7 +70,46 @@ def accelerations(analysis):
         both = list(zip(of["chassis"], of["powertrain"], strict=True))
         changes = [change(p, c) if name != "mean" else "" for c, p in both]
         rows.append((words, UNITS[name], *(number(value) for pair in both for value in pair), *changes))
-    return Table(head, rows, 2)
+    power = [analysis.absorbed_power[sensor] for sensor in SENSORS]
+    empty = ("",) * (len(SENSORS) * (len(AXES) - 1))
+    row = (*empty, *map(number, power), *("",) * (len(AXES) - 1), change(*reversed(power)))
+    return Table(head, [*rows, ("absorbed power", "W", *row)], 2)
+
+
+def further(analysis):
+    """Sensors beside the two; without any no rows."""
+    head = (
+        "further sensors",
+        *(f"{kind} {axis}, m/s²" for kind in ("RMS", "weighted") for axis in AXES),
+        "absorbed, W",
+    )
+    rows = [
+        (
+            name,
+            *(number(axes[axis].rms) for axis in AXES),
+            *(number(axes[axis].rms_weighted) for axis in AXES),
+            number(analysis.absorbed_power[name]),
+        )
+        for name, axes in analysis.sensors.items()
+        if name not in SENSORS
+    ]
+    return Table(head, rows)
+
+
+def by_speed(analysis):
+    """RMS and absorbed power in bands of speed; of a steady speed no rows."""
+    head = ("speed, m/s", "time, s", "engine, r/min", *_COLUMNS, *(f"{sensor}, W" for sensor in SENSORS))
+    rows = [
+        (
+            f"{band.low:g} to {band.high:g}",
+            f"{band.measured:.1f}",
+            number(band.engine_speed),
+            *(number(band.rms[sensor][axis], 3) for axis in AXES for sensor in SENSORS),
+            *(number(band.absorbed_power[sensor], 3) for sensor in SENSORS),
+        )
+        for band in analysis.by_speed
+    ]
+    return Table(head, rows if len(rows) > 1 else [])
 
 
 def lines(analysis):
