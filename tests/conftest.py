@@ -149,7 +149,7 @@ class Observer:
         self._executor = EventsExecutor(context=self._context)
         self._executor.add_node(self._node)
         self._node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, 1000)
-        self.values = {}  # latest diagnostics, as text
+        self.told = []  # all diagnostics, as text
         self._clients = {}
 
     @property
@@ -158,7 +158,12 @@ class Observer:
         return self._node
 
     def _on_diagnostics(self, message):
-        self.values = {pair.key: pair.value for pair in message.status[0].values}
+        self.told.append({pair.key: pair.value for pair in message.status[0].values})
+
+    @property
+    def values(self):
+        """The latest diagnostics, as text."""
+        return self.told[-1] if self.told else {}
 
     def wait_until(self, condition):
         """Wait until `condition()`."""
