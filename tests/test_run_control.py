@@ -14,13 +14,14 @@ LOOP_TOPICS = ("/chassis/imu", "/powertrain/imu", "/coil_current", "/mount_state
 
 
 @pytest.fixture
-def loop(start_node):
+def loop(start_node, observer):
     """Start road, controller and simulator: `loop(**simulator_parameters)`; returns them by name."""
 
     def make(**parameters):
-        road = start_node("road_excitation")
         controller = start_node("controller", law="skyhook")
-        return {"road": road, "controller": controller, "simulator": start_node("simulator", **parameters)}
+        simulator = start_node("simulator", **parameters)
+        observer.wait_for(state="waiting")  # else it may find the simulator only when the run is over
+        return {"road": start_node("road_excitation"), "controller": controller, "simulator": simulator}
 
     return make
 
