@@ -2,7 +2,6 @@
 
 import fcntl
 import os
-import signal
 import subprocess
 import sys
 import tempfile
@@ -19,9 +18,9 @@ from mr_mount_controller.node_base.shared_memory import remove_unfinished_segmen
 from rclpy.experimental import EventsExecutor
 from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import Trigger
-from trackvib_sim.nodes.processes import end_with_parent
 
 from .bag_helpers import edit_bag
+from .processes import PATIENCE, Node, Process
 
 PACKAGES = {
     "simulator": "trackvib_sim",
@@ -31,8 +30,6 @@ PACKAGES = {
     "one_process": "trackvib_sim",
     "controller": "mr_mount_controller",
 }
-# Only a bound for what hangs; nothing here measures speed.
-PATIENCE = 90.0
 # s, an `answer_timeout` that a busy machine does not use up: for runs in which silence would be an error.
 UNHURRIED = 20.0
 DOMAINS = range(40, 100)
@@ -44,64 +41,6 @@ def wait_until(condition, seconds=PATIENCE, what="what is waited for"):
     while not condition():
         assert time.monotonic() < end, f"{what} never came within {seconds:g} s"
         time.sleep(0.05)
-
-
-def _begin():
-    """In a new process: a test run started in the background of a script has Ctrl-C ignored, and hands that on."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-    end_with_parent()
-
-
-class Process:
-    """A running process with everything it prints."""
-
-    def __init__(self, command, log, env, folder):
-        self._log = log
-        with log.open("wb") as file:
-            self._process = subprocess.Popen(
-                command,
-                stdin=subprocess.DEVNULL,
-                stdout=file,
-                stderr=subprocess.STDOUT,
-                start_new_session=True,
-                env=env,
-                cwd=folder,
-                preexec_fn=_begin,
-            )
-        self.pid = self._process.pid
-
-    @property
-    def output(self):
-        """All that it has printed so far."""
-        return self._log.read_text(errors="replace")
-
-    @property
-    def running(self):
-        return self._process.poll() is None
-
-    def wait(self):
-        """Wait for its end; returns the exit code."""
-        try:
-            return self._process.wait(PATIENCE)
-        except subprocess.TimeoutExpired:
-            raise AssertionError(f"did not end; it printed:\n{self.output}") from None
-
-    def wait_for(self, text):
-        """Wait until it has printed a text."""
-        end = time.monotonic() + PATIENCE
-        while text not in self.output:
-            if not self.running or time.monotonic() > end:
-                assert text in self.output, f"never printed {text!r} but:\n{self.output}"
-            time.sleep(0.05)
-
-    def signal(self, number):
-        """Send a signal to the whole process group, as a terminal does."""
-        os.killpg(self.pid, number)
-
-    def clean_up(self):
-        if self.running:
-            self.signal(signal.SIGKILL)
-            self._process.wait()
 
 
 @contextmanager
@@ -160,33 +99,41 @@ def env(domain):
 
 
 @pytest.fixture
-def start(tmp_path, env):
+def processes():
+    """The processes of a test, which end with it."""
+    started = []
+    yield started
+    for process in started:
+        process.clean_up()
+
+
+@pytest.fixture
+def start(processes, tmp_path, env):
     """Start processes that end with the test: `start(command)`."""
-    processes = []
 
     def make(command):
         log = tmp_path / f"process_{len(processes)}.log"
         processes.append(Process([str(word) for word in command], log, env, tmp_path))
         return processes[-1]
 
-    yield make
-    for process in processes:
-        process.clean_up()
+    return make
 
 
 @pytest.fixture
-def start_node(start):
-    """Start one of the nodes by its installed executable: `start_node("simulator", speed=5.0)`.
+def start_node(processes, start, tmp_path, env):
+    """Start one of the nodes by its installed entry point: `start_node("simulator", speed=5.0)`.
 
-    `before` are words of a command that runs it.
+    `before` are words of a command that runs its executable.
     """
 
     def make(name, *arguments, before=(), **parameters):
-        package = PACKAGES[name]
-        command = [*before, f"{get_package_prefix(package)}/lib/{package}/{name}", *arguments, "--ros-args"]
+        words = [*map(str, arguments), "--ros-args"]
         for parameter, value in parameters.items():
-            command += ["-p", f"{parameter}:={str(value).lower() if isinstance(value, bool) else value}"]
-        return start(command)
+            words += ["-p", f"{parameter}:={str(value).lower() if isinstance(value, bool) else value}"]
+        if before:
+            return start([*before, f"{get_package_prefix(PACKAGES[name])}/lib/{PACKAGES[name]}/{name}", *words])
+        processes.append(Node(name, words, tmp_path / f"process_{len(processes)}.log", env, tmp_path))
+        return processes[-1]
 
     return make
 
@@ -202,7 +149,7 @@ class Observer:
         self._executor = EventsExecutor(context=self._context)
         self._executor.add_node(self._node)
         self._node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, 1000)
-        self.values = {}  # latest diagnostics, as text
+        self.told = []  # all diagnostics, as text
         self._clients = {}
 
     @property
@@ -211,7 +158,12 @@ class Observer:
         return self._node
 
     def _on_diagnostics(self, message):
-        self.values = {pair.key: pair.value for pair in message.status[0].values}
+        self.told.append({pair.key: pair.value for pair in message.status[0].values})
+
+    @property
+    def values(self):
+        """The latest diagnostics, as text."""
+        return self.told[-1] if self.told else {}
 
     def wait_until(self, condition):
         """Wait until `condition()`."""

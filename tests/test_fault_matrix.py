@@ -110,9 +110,10 @@ def test_simulator_killed_and_restarted(start_node, observer, tmp_path):
 def test_recorder_killed(start_node, observer, tmp_path):
     """A run that waits for its recorder gives up on one that was killed, says so once, and goes on."""
     recorder = start_node("recorder", bag=tmp_path / "bag")
-    start_node("road_excitation")
     start_node("controller")
     simulator = start_node("simulator", duration=2.0, wait_for_recorder=True, answer_timeout=UNHURRIED)
+    observer.wait_for(state="waiting")  # else it may find the simulator only when the run is over
+    start_node("road_excitation")
     observer.wait_until(lambda: float(observer.values.get("time", 0.0)) > 0.2)
     recorder.signal(signal.SIGKILL)
     assert simulator.wait() == 0, simulator.output

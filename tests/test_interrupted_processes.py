@@ -14,11 +14,13 @@ TIMEOUT = 2.0  # s, of answers: less than AWAY, more than a busy machine needs f
 
 
 @pytest.fixture
-def loop(start_node, tmp_path):
+def loop(start_node, observer, tmp_path):
     """A whole loop with a recorder, by the names of its nodes."""
-    nodes = {"recorder": start_node("recorder", bag=tmp_path / "bag"), "road_excitation": start_node("road_excitation")}
+    nodes = {"recorder": start_node("recorder", bag=tmp_path / "bag")}
     nodes["controller"] = start_node("controller", law="skyhook", wait_for_recorder=True)
     nodes["simulator"] = start_node("simulator", duration=4.0, wait_for_recorder=True, answer_timeout=TIMEOUT)
+    observer.wait_for(state="waiting")  # else it may find the simulator only when the run is over
+    nodes["road_excitation"] = start_node("road_excitation")
     return nodes
 
 

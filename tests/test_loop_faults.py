@@ -100,7 +100,7 @@ def test_real_time_falls_silent_as_well(start_node):
     """In real time a dead controller is noticed by the wall clock, said once and counted."""
     start_node("road_excitation")
     controller = start_node("controller")
-    simulator = start_node("simulator", pace="realtime", duration=4.0, answer_timeout=1.0, on_silence="passive")
+    simulator = start_node("simulator", pace="realtime", duration=4.0, answer_timeout=2.0, on_silence="passive")
     simulator.wait_for("running")
     controller.wait_for("first sample")
     controller.signal(signal.SIGKILL)

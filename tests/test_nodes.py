@@ -2,7 +2,6 @@
 
 import itertools
 import signal
-import time
 
 import pytest
 
@@ -105,13 +104,12 @@ def test_any_start_order(start_node, order):
 
 
 @SLOW
-def test_two_simulators_do_not_mix(start_node):
+def test_two_simulators_do_not_mix(start_node, observer):
     """A second simulator in the same domain says so and ends; the first goes on."""
     start_node("road_excitation")
     start_node("controller")
     first = start_node("simulator")
-    first.wait_for("running")
-    time.sleep(1.0)  # of two simulators the one that is behind gives way
+    observer.wait_until(lambda: float(observer.values.get("time", 0.0)) > 1.0)  # the one that is behind gives way
     second = start_node("simulator")
     assert second.wait() != 0
     assert "another simulator" in second.output and "ROS_DOMAIN_ID" in second.output

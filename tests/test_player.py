@@ -79,11 +79,11 @@ def test_stretch_pace_and_choice(start_node, observer, bag):
     """From start to end, not faster than the rate says, and only the chosen topics."""
     imu = observer.collect(Imu, "chassis/imu", DEEP)
     unwanted = observer.collect(Imu, "powertrain/imu", DEEP)
-    player = start_node("player", bag=bag, start=1.5, end=1.9, rate=0.4, topics='["chassis/*"]')
+    player = start_node("player", bag=bag, start=1.5, end=1.9, rate=0.2, topics='["chassis/*"]')
     observer.wait_until(lambda: imu)
     began = time.monotonic()
     observer.wait_until(lambda: len(imu) == 401)
-    assert time.monotonic() - began > 0.9  # 1 s, less what passed before the first one was seen
+    assert time.monotonic() - began > 1.5  # 2 s, less what passed before the first one was seen
     assert player.wait() == 0, player.output
     assert stamps(imu) == list(range(1500, 1901))
     assert not unwanted

@@ -44,6 +44,12 @@ def counted(bag, topic):
     return np.array([stamp for stamp, _ in found]), np.array([count for _, count in found])
 
 
+def wait_for_more(observer, topic):
+    """Wait for so many further messages of a stream as take it half a second."""
+    messages = observer.collect(Imu, topic, LOOP_WRITER_QOS)
+    observer.wait_until(lambda: len(messages) > 250)
+
+
 def last_words(process):
     """Return the one error that a process printed."""
     assert process.output.count("error:") == 1 and "Traceback" not in process.output, process.output
@@ -150,12 +156,12 @@ def test_disk_that_is_full_at_the_start(start_node, small_disk, tmp_path):
 
 @SLOW
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_messages_that_never_cease_do_not_keep_it_alive(start, start_node, tmp_path, number):
+def test_messages_that_never_cease_do_not_keep_it_alive(start, start_node, observer, tmp_path, number):
     """Asked to end, it does while they go on; the bag is whole."""
     stream = start([sys.executable, STREAM, "one", "two", "three"])
     recorder = start_node("recorder", bag=tmp_path / "bag", topics="[one, two, three]")
     recorder.wait_for("recording 3 topics")
-    time.sleep(1.0)
+    wait_for_more(observer, "three")
     recorder.signal(number)
     assert recorder.wait() == 0, recorder.output
     assert stream.running
@@ -165,14 +171,14 @@ def test_messages_that_never_cease_do_not_keep_it_alive(start, start_node, tmp_p
 
 
 @SLOW
-def test_topics_by_pattern_are_taken_up_when_they_appear(start, start_node, tmp_path):
+def test_topics_by_pattern_are_taken_up_when_they_appear(start, start_node, observer, tmp_path):
     """Those that are there at the start, and later ones from their first sight on; no others."""
     start([sys.executable, STREAM, "left/imu", "left/other"])
     recorder = start_node("recorder", bag=tmp_path / "bag", topics="['']", pattern="/imu$", chunk_size=64)
     recorder.wait_for("recording 1 topics")
     start([sys.executable, STREAM, "right/imu"])
     recorder.wait_for("/right/imu has appeared")
-    time.sleep(1.0)
+    wait_for_more(observer, "right/imu")
     recorder.signal(signal.SIGINT)
     assert recorder.wait() == 0, recorder.output
     found = contents(tmp_path / "bag")

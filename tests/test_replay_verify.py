@@ -172,10 +172,11 @@ def test_interrupted_at_any_moment(start_cli, recorded_run):
 def test_a_killed_controller(start_node, observer, tmp_path, policy):
     """The currents in force while nobody answers are those that the policy gave, and again the controller's after."""
     recorder = start_node("recorder", bag=tmp_path / "bag")
-    start_node("road_excitation")
     controller = start_node("controller", law="skyhook", wait_for_recorder=True)
     quick = {"on_silence": policy, "answer_timeout": 0.2, "passive_current": 1.5}
     simulator = start_node("simulator", duration=3.0, wait_for_recorder=True, **quick)
+    observer.wait_for(state="waiting")  # else it may find the simulator only when the run is over
+    start_node("road_excitation")
     observer.wait_until(lambda: float(observer.values.get("time", 0.0)) > 0.3)
     # standing, for the last answer of a controller killed while it sends need not reach the recorder
     observer.call("pause")
@@ -196,9 +197,11 @@ def test_a_killed_controller(start_node, observer, tmp_path, policy):
 def test_each_epoch_is_verified(start_node, observer, tmp_path):
     """A run that was reset leaves two bags, and both come out again."""
     recorder = start_node("recorder", bag=tmp_path / "bag")
-    start_node("road_excitation")
     start_node("controller", law="skyhook")
     simulator = start_node("simulator", duration=2.5, wait_for_recorder=True)
+    observer.wait_for(state="waiting")
+    observer.client("reset")
+    start_node("road_excitation")
     observer.wait_until(lambda: float(observer.values.get("time", 0.0)) > 0.3)
     observer.call("reset")
     assert simulator.wait() == 0, simulator.output

@@ -6,19 +6,22 @@ import pytest
 from mcap.reader import make_reader
 from trackvib_sim.bags.reading import read_recording
 
+from .conftest import UNHURRIED
+
 pytestmark = [pytest.mark.system, pytest.mark.slow(reason="each test is a loop of real processes")]
 
 LOOP_TOPICS = ("/chassis/imu", "/powertrain/imu", "/coil_current", "/mount_state")
 
 
 @pytest.fixture
-def loop(start_node):
+def loop(start_node, observer):
     """Start road, controller and simulator: `loop(**simulator_parameters)`; returns them by name."""
 
     def make(**parameters):
-        road = start_node("road_excitation")
         controller = start_node("controller", law="skyhook")
-        return {"road": road, "controller": controller, "simulator": start_node("simulator", **parameters)}
+        simulator = start_node("simulator", **parameters)
+        observer.wait_for(state="waiting")  # else it may find the simulator only when the run is over
+        return {"road": start_node("road_excitation"), "controller": controller, "simulator": simulator}
 
     return make
 
@@ -32,7 +35,7 @@ def stream(bag, topic):
 @pytest.mark.parametrize("pace", ["lockstep", "realtime"])
 def test_pause_step_resume(loop, observer, pace):
     """A paused run stands still, a step takes it one period further, and it goes on where it stood."""
-    nodes = loop(pace=pace)
+    nodes = loop(pace=pace, answer_timeout=UNHURRIED)
     observer.wait_for(state="running")
     assert not observer.call("step").success
     assert observer.call("pause").success
@@ -61,7 +64,7 @@ def test_a_paused_run_ends_cleanly(loop, observer):
 def test_reset_gives_the_first_run_again(start_node, loop, observer, tmp_path):
     """After a reset stamps and counts begin anew, the law is reset, and every byte is that of the first epoch."""
     recorder = start_node("recorder", bag=tmp_path / "bag")
-    nodes = loop(duration=1.5, wait_for_recorder=True)
+    nodes = loop(duration=1.5, wait_for_recorder=True, answer_timeout=UNHURRIED)
     observer.client("reset")
     observer.wait_until(lambda: float(observer.values.get("time", 0.0)) > 0.5)
     assert observer.call("reset").success
@@ -103,7 +106,8 @@ def test_reset_in_real_time(loop, observer):
     loop(pace="realtime")
     observer.wait_until(lambda: float(observer.values.get("time", 0.0)) > 0.3)
     observer.call("reset")
-    assert observer.wait_for(epoch="2") < 0.3
+    observer.wait_for(epoch="2")
+    assert float(next(values["time"] for values in observer.told if values["epoch"] == "2")) < 0.3
     observer.wait_until(lambda: float(observer.values["time"]) > 0.5)
     assert float(observer.values["real_time_factor"]) < 1.1
 

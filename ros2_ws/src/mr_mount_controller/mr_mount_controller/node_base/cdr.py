@@ -189,7 +189,10 @@ class _Walk:
     def visit(self, kind, name):
         """Step over a field: note its numbers, look up its lengths."""
         if kind is TEXT:
-            self._step(self._take_length(name, 1), 1, name)
+            count = self._take_length(name, 1)
+            if not count:  # ROS reads it as an empty text, readers of bags do not read it at all
+                raise LayoutError(f"field {name} has no length, accepted is one that counts the zero at a text's end")
+            self._step(count, 1, name)
         elif isinstance(kind, str):
             self._take_numbers(name, kind, 1)
         elif isinstance(kind, Fields):

@@ -90,6 +90,18 @@ def test_new_epoch(type_name, same_again):
     assert times.add("/topic", type_name, True, stamped(6 * MS)) is None
 
 
+def test_a_clock_beside_samples_begins_no_epoch():
+    """Anybody can tell a time on it: one that goes back has the latest time, and changes nothing for what follows."""
+    times = recorded(IMU, CLOCK)
+    for k in (7, 8):
+        assert times.add("/chassis/imu", IMU, True, stamped(k * MS)) == k * MS
+        assert times.add("/clock", CLOCK, True, stamped(k * MS)) == k * MS
+        for wrong in (0, 5):
+            assert times.add("/clock", CLOCK, True, stamped(wrong * MS)) == k * MS
+    assert times.complete_until == 8 * MS
+    assert times.add("/chassis/imu", IMU, True, stamped(1 * MS)) is None
+
+
 def test_message_without_stamp_has_that_of_the_latest():
     """Of no stamp, and of one that nobody filled in."""
     times = Timekeeping()

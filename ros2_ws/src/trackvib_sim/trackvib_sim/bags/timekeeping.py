@@ -11,6 +11,9 @@ _LEAST_STEP = {
     topics.CLOCK_TYPE: 0,
     topics.ODOMETRY_TYPE: 0,
 }
+# Others than the simulator may tell a time on its clock. Where its own words are recorded as well, these alone begin an
+# epoch: they reach a recorder before the clock of the new run.
+_ITS_OWN = frozenset(_LEAST_STEP) - {topics.CLOCK_TYPE}
 # They come every period, or every so many periods, whatever the partners do.
 _EVERY_PERIOD = (topics.IMU_TYPE, topics.MOUNT_STATE_TYPE)
 _ANSWER = topics.COIL_CURRENT_TYPE
@@ -56,7 +59,7 @@ class Timekeeping:
         """Take note of a serialised message; returns its time in the bag [ns], or None if it begins a new epoch.
 
         A message without a stamp (`stamped` false, or one that nobody filled in) has that of the latest one, and so has
-        one whose stamp cannot be true: it is negative, or all by itself far ahead.
+        one whose stamp cannot be true: it is negative, all by itself far ahead, or a clock behind the others.
         """
         stamp = leading_stamp(data) if stamped else 0
         if not self._believable(topic, stamp):
@@ -68,7 +71,7 @@ class Timekeeping:
                 self._answered = max(self._answered, stamp)
             return stamp
         if stamp < self._keepers.get(topic, 0) + least_step:
-            return None
+            return self.latest if type_name == topics.CLOCK_TYPE and self._types & _ITS_OWN else None
         if type_name in _EVERY_PERIOD:
             step = stamp - self._keepers.get(topic, 0)
             self._paced[topic] = min(step, self._paced.get(topic, step))
