@@ -24,7 +24,7 @@ from ..rui.sweeps.elastic import elastic_energy
 from ..rui.sweeps.kinematics import MotionOffset, motion_vector, rotation, update_motion
 from ..rui.sweeps.tree import BodyOffset
 from .drive.driver import add_driver
-from .engine import add_engine, imposed_displacement
+from .drive.engine import add_engine, imposed_displacement
 from .hinge_springs import add_hinge_springs
 from .mount_law import mount_force, mount_stored_energy
 from .mounts import mount_current, mount_deflection

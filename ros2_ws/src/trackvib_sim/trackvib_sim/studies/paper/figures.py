@@ -11,7 +11,7 @@ from ...data import find_vehicle
 from ...new_files import new_file
 from ...road.iso8608 import FADE, Iso8608Road
 from ...simulation.simulation import RunFailed
-from ...vehicle.engine import IMPOSED_ORDER
+from ...vehicle.drive.engine import IMPOSED_ORDER
 from ...vehicle.vehicle_file import read_vehicle
 from ..case import BAND, ENGINE_SPEED, Case
 from ..case_store import CaseStore
