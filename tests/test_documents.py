@@ -48,9 +48,9 @@ def test_every_topic_has_its_row():
 @pytest.mark.slow(reason="a whole run")
 @pytest.mark.system
 def test_topics_have_the_types_that_travel(recorded_run):
-    """The bag of a run holds every topic of the table, with its type, but the recorder's own words and more sensors."""
+    """The bag of a run holds every topic of the table, with its type, but the recorder's own words, more sensors and `cmd_vel`."""
     described = {topic.name.removeprefix("/"): topic.type for topic in topics.TOPICS}
-    for absent in (topics.RECORDED, topics.RECORDED_ANSWERS, topics.FURTHER_IMU):
+    for absent in (topics.RECORDED, topics.RECORDED_ANSWERS, topics.FURTHER_IMU, topics.CMD_VEL):
         del described[absent]
     metadata = yaml.safe_load((recorded_run / "bag" / "metadata.yaml").read_text())
     told = metadata["rosbag2_bagfile_information"]["topics_with_message_count"]
@@ -61,7 +61,11 @@ def test_topics_have_the_types_that_travel(recorded_run):
 def test_rows_say_default_range_and_unit():
     """A parameter's row has its default, what is accepted with the unit, and its meaning."""
     rows = {row[0]: row[1:] for row in code_tables.TABLES["parameters of simulator"]()}
-    assert rows["`speed`"] == ("`10.0`", "-25 to 25 m/s", "Speed that the driver keeps; below 0 backwards.")
+    assert rows["`speed`"] == (
+        "`10.0`",
+        "-25 to 25 m/s",
+        "Speed to keep, where no drive file says it; below 0 backwards.",
+    )
     assert rows["`wait_for_recorder`"][:2] == ("`false`", "`false`, `true`")
     road = {row[0]: row[1:] for row in code_tables.TABLES["parameters of road_excitation"]()}
     assert road["`coherence`"][1] == "`isotropic`, `exponential`"

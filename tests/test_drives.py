@@ -9,6 +9,8 @@ from trackvib_msgs.msg import DriveState, RoadProfile
 from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.commands.replay_verify import verify
 from trackvib_sim.data import find_vehicle
+from trackvib_sim.vehicle.drive.drive_file import parse_drive
+from trackvib_sim.vehicle.drive.schedule import arrival_time
 
 from .conftest import UNHURRIED
 
@@ -40,7 +42,8 @@ def test_a_drive_is_kept_recorded_and_replayed(start_cli, tmp_path, drive_file):
     recording = read_recording(tmp_path / "run" / "bag")
     drive = recording.drive
     assert recording.drive_file == DRIVE
-    assert len(drive.stamp) == 621 and drive.distance[-1] == pytest.approx(31.0, abs=2.0)
+    wanted = arrival_time(parse_drive(DRIVE, 0.0, "drive"), drive.distance[-1])
+    assert len(drive.stamp) == 621 and wanted == pytest.approx(6.2, abs=0.1)
     assert drive.curvature.max() == pytest.approx(0.04, rel=0.01) and np.abs(drive.offset).max() < 1.0
     later = drive.stamp > 1_000_000_000
     speed = np.interp(drive.stamp, recording.odometry.stamp, recording.odometry.speed)
@@ -53,7 +56,8 @@ def test_a_drive_is_kept_recorded_and_replayed(start_cli, tmp_path, drive_file):
     law = start_cli("replay", tmp_path / "run" / "bag", "--law", "skyhook", "--out", tmp_path / "again")
     assert law.wait() == 0, law.output
     again = read_recording(tmp_path / "again" / "bag").drive
-    np.testing.assert_array_equal(again.wanted_speed, drive.wanted_speed)
+    # over distance, which another law changes a little
+    np.testing.assert_allclose(again.wanted_speed, drive.wanted_speed, atol=0.05)
 
 
 @pytest.mark.slow(reason="a whole loop of nodes, and again")

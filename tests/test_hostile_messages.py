@@ -8,7 +8,7 @@ from struct import pack_into
 
 import pytest
 from builtin_interfaces.msg import Time
-from geometry_msgs.msg import Vector3
+from geometry_msgs.msg import TwistStamped, Vector3
 from mr_mount_controller.mounting import PAIR, undescribed
 from mr_mount_controller.node_base.qos import LATCHED_QOS, LOOP_WRITER_QOS, ROAD_QOS
 from nav_msgs.msg import Odometry
@@ -17,7 +17,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu
 from std_msgs.msg import String
-from trackvib_msgs.msg import CoilCurrent, MountDescription, RoadProfile
+from trackvib_msgs.msg import CoilCurrent, DriveState, MountDescription, RoadProfile
 from trackvib_sim.bags.raw_messages import RawMessage, raw_records
 from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.nodes.messages import ImuMessage, mount_description
@@ -34,6 +34,8 @@ LOOP = (  # topic, a message, quality of service
     ("coil_current", CoilCurrent(), LOOP_WRITER_QOS),
     ("road_profile", RoadProfile(left=[0.0] * 3, right=[0.0] * 3), ROAD_QOS),
     ("odometry", Odometry(), LATCHED_QOS),
+    ("drive_state", DriveState(), LATCHED_QOS),
+    ("cmd_vel", TwistStamped(), LOOP_WRITER_QOS),
     ("vehicle_description", String(data="text"), LATCHED_QOS),
     ("mount_description", mount_description(PAIR), LATCHED_QOS),
     ("/clock", Clock(), QoSProfile(depth=10)),
@@ -97,7 +99,9 @@ def test_loop_of_all_nodes(start_node, observer, tmp_path):
     for topic in ("coil_current", "road_profile", "/clock"):
         send_damaged(observer, topic, [simulator, recorder])
     send_damaged(observer, "recorder/recorded", [simulator])
-    send_damaged(observer, "odometry", [road, recorder])
+    send_damaged(observer, "odometry", [recorder])
+    send_damaged(observer, "drive_state", [road, recorder])
+    send_damaged(observer, "cmd_vel", [simulator])
     send_damaged(observer, "vehicle_description", [recorder])
     send_damaged(observer, "mount_description", [controller, recorder])
     observer.wait_until(lambda: int(observer.values.get("refused", 0)) >= 4)
@@ -142,18 +146,15 @@ def test_recorder_keeps_an_absurd_stamp_as_it_came(start_node, observer, tmp_pat
 def test_road_node(start_node, observer):
     """A place that is none is refused; a vehicle that stands somewhere else still gets its road."""
     patches = observer.collect(RoadProfile, "road_profile", ROAD_QOS)
-    publisher = observer.node.create_publisher(Odometry, "odometry", LATCHED_QOS)
+    publisher = observer.node.create_publisher(DriveState, "drive_state", LATCHED_QOS)
     road = start_node("road_excitation")
     observer.wait_until(publisher.get_subscription_count)
     for position in (math.nan, math.inf, -math.inf, 1e300, -1e9):
-        odometry = Odometry()
-        odometry.pose.pose.position.x = position
-        publisher.publish(odometry)
-    road.wait_for("position.x is nan m, accepted is up to 1e+08 m either way")
-    odometry = Odometry()
-    odometry.header.stamp.sec = 1
-    odometry.pose.pose.position.x = 1000.0
-    publisher.publish(odometry)
+        publisher.publish(DriveState(distance=position))
+    road.wait_for("distance is nan m, accepted is up to 1e+08 m either way")
+    drive = DriveState(distance=1000.0)
+    drive.header.stamp.sec = 1
+    publisher.publish(drive)
     observer.wait_until(lambda: any(deserialize_message(data, RoadProfile).start == 1000.0 for data in patches))
     assert_in_good_health(road)
 

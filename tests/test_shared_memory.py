@@ -26,7 +26,7 @@ def test_node_starts_beside_unfinished_segments(start_node, domain, half):
         path.write_bytes(HALVES[half])
     try:
         node = start_node("road_excitation")
-        node.wait_for("waiting for a vehicle's odometry")
+        node.wait_for("waiting for a vehicle")
         node.signal(signal.SIGINT)
         assert node.wait() == 0
     finally:

@@ -4,6 +4,7 @@ from .data import vehicle_names as vehicle_names
 from .vehicle.parameters import Vehicle as Vehicle
 from .vehicle.sensors import Instrument as Instrument
 from .vehicle.sensors import Sensor as Sensor
+from .vehicle.drive.schedule import Schedule as Schedule
 from .vehicle.system import Operation as Operation
 from .vehicle.vehicle_file import VehicleFileError as VehicleFileError
 from .vehicle.vehicle_file import read_vehicle as read_vehicle
