@@ -48,7 +48,8 @@ def test_every_topic_has_its_row():
 @pytest.mark.slow(reason="a whole run")
 @pytest.mark.system
 def test_topics_have_the_types_that_travel(recorded_run):
-    """The bag of a run holds every topic of the table, with its type, but the recorder's own words, more sensors and `cmd_vel`."""
+    """The bag of a run holds every topic of the table, with its type, but more sensors and what the simulator does not
+    say."""
     described = {topic.name.removeprefix("/"): topic.type for topic in topics.TOPICS}
     for absent in (topics.RECORDED, topics.RECORDED_ANSWERS, topics.FURTHER_IMU, topics.CMD_VEL):
         del described[absent]

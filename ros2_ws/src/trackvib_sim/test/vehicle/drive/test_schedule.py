@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from trackvib_sim.vehicle.drive.drive_file import DriveFileError, parse_drive
+from trackvib_sim.vehicle.drive.drive_file import DriveFileError, drive_text, parse_drive
 from trackvib_sim.vehicle.drive.schedule import (
     Schedule,
     arrival_time,
@@ -107,6 +107,64 @@ def test_a_bad_file_is_refused(text, words):
     with pytest.raises(DriveFileError) as refused:
         parse_drive(text, 1650.0, "drive.yaml")
     assert "drive.yaml" in str(refused.value) and words in str(refused.value)
+
+
+@pytest.mark.analytic
+@pytest.mark.parametrize(
+    ("text", "by_distance", "at", "speed", "curvature"),
+    [
+        ("time_s,speed_kmh\n0,36\n12.5,72\n", False, [0.0, 12.5], [10.0, 20.0], [0.0, 0.0]),
+        (
+            "# a bend\ndistance_km;speed_mps;curvature_1/m\n0;5;0\n0.1;6;-1e-05\n",
+            True,
+            [0.0, 100.0],
+            [5.0, 6.0],
+            [0, -1e-5],
+        ),
+        ("speed_mph\ttime_min\n10\t0\n", False, [0.0], [4.4704], [0.0]),
+    ],
+)
+def test_a_csv_file_becomes_the_same_schedule(tmp_path, text, by_distance, at, speed, curvature):
+    """Its columns name quantity and unit; the text for the bag has every number to the last bit."""
+    path = tmp_path / "drive.csv"
+    path.write_text(text, encoding="utf-8")
+    schedule = parse_drive(drive_text(path), 1650.0, "drive")
+    assert schedule.by_distance == by_distance
+    for ours, expected in ((schedule.at, at), (schedule.speed, speed), (schedule.curvature, curvature)):
+        np.testing.assert_allclose(ours, expected, rtol=1e-15)
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "its first line must name the columns, like time_s,speed_mps"),
+        ("time_s\n0\n", "accepted are time_UNIT,speed_UNIT or distance_UNIT,speed_UNIT"),
+        ("time_s,speed_knots\n0,5\n", "UNIT being one of s, min, mps, kmh, mph, m, cm, mm, km, in, ft"),
+        ("time_s,speed_mps\n0,fast\n", "line 2: '0,fast', accepted are 2 numbers"),
+        ("time_s,speed_mps\n0,nan\n", "speed"),
+        ("time_s,speed_mps\n0,1e999\n", "speed"),
+        ("time_s,speed_mps\n1,5\n0,5\n", "point 2: at is 0, must be above 1"),
+        ("time_s,speed_mps,speed_kmh\n0,5,5\n", "two columns are called speed"),
+    ],
+)
+def test_a_bad_csv_file_is_refused(tmp_path, text, words):
+    """With the file's name, the line or item and what is accepted."""
+    path = tmp_path / "drive.csv"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(DriveFileError) as refused:
+        parse_drive(drive_text(path), 1650.0, "drive.csv")
+    assert "drive.csv" in str(refused.value) and words in str(refused.value)
+
+
+@pytest.mark.property
+def test_what_is_no_file_is_refused(tmp_path):
+    """A folder and a file that is not there, of either kind."""
+    for name in ("there.csv", "there.yaml"):
+        (tmp_path / name).mkdir()
+        for path in (tmp_path / name, tmp_path / f"not_{name}"):
+            with pytest.raises(DriveFileError, match=name):
+                drive_text(path)
 
 
 @pytest.mark.property

@@ -1,4 +1,4 @@
-"""Drive files: what is wanted of the driver over time or distance, in YAML.
+"""Drive files: what is wanted of the driver over time or distance, in YAML or CSV.
 
     over: time                      # s from the start of the run; or distance, m along the path
     points:
@@ -6,15 +6,20 @@
       - {at: 10, speed: 12}
       - {at: 20, speed: 12, curvature: 0.02}   # 1/m, to the left; 0 where nothing is said
 
-Points may have an `engine_speed` [r/min], all of them or none.
+Points may have an `engine_speed` [r/min], all of them or none. As CSV it is a column of times or distances, one of
+speeds, and whichever of the others there are, with their units in the names:
+
+    time_s,speed_kmh          or          distance_m,speed_mps,curvature_1/m,engine_speed_rpm
 """
 
 from itertools import pairwise
+from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from ...csv_columns import METRES, CsvError, read_columns
 from ...numerics.units import RPM
 from ...yaml_text import YamlTextError, read_text, validated
 from .command import check_curvature, check_speed
@@ -23,6 +28,15 @@ from .schedule import Schedule
 MOST_POINTS = 20_000
 SLOWEST_BY_DISTANCE = 0.1  # m/s; who stands never gets to the next point
 _LARGEST_AT = 1e6  # s or m
+
+_UNITS = {
+    "time": {"s": 1.0, "min": 60.0},
+    "distance": METRES,
+    "speed": {"mps": 1.0, "kmh": 1.0 / 3.6, "mph": 0.44704},
+    "curvature": {"1/m": 1.0},
+    "engine_speed": {"rpm": 1.0},
+}
+_LAYOUTS = (("time", "speed"), ("distance", "speed"))
 
 Number = Annotated[float, Field(allow_inf_nan=False)]
 
@@ -75,7 +89,7 @@ class DriveFile(BaseModel):
 
 
 def drive_text(path):
-    """Return the text of a drive file, as a bag keeps it.
+    """Return the text of a drive file, as a bag keeps it: in YAML, whatever the file is in.
 
     Raises
     ------
@@ -83,9 +97,28 @@ def drive_text(path):
         It cannot be read.
     """
     try:
-        return read_text(path, "drive file")
-    except YamlTextError as error:
+        return _from_csv(path) if Path(path).suffix.lower() == ".csv" else read_text(path, "drive file")
+    except (YamlTextError, CsvError) as error:
         raise DriveFileError(str(error)) from None
+    except OSError as error:
+        raise DriveFileError(f"drive file {str(path)!r} cannot be read: {error.strerror}") from None
+
+
+def _from_csv(path):
+    columns = read_columns(path, _UNITS, _LAYOUTS, ("curvature", "engine_speed"), MOST_POINTS)
+    over = next(iter(columns))
+    names = ["at", *list(columns)[1:]]
+    lines = [f"over: {over}", "points:"]
+    for values in zip(*(column.tolist() for column in columns.values()), strict=True):
+        items = (f"{name}: {_number(value)}" for name, value in zip(names, values, strict=True))
+        lines.append(f"- {{{', '.join(items)}}}")
+    return "\n".join(lines) + "\n"
+
+
+def _number(value):
+    """A number in YAML, to the last bit; what is none is refused with the others."""
+    words = {"inf": ".inf", "-inf": "-.inf", "nan": ".nan"}
+    return words.get(str(value)) or repr(value).replace("e", ".0e" if "." not in repr(value) else "e")
 
 
 def parse_drive(text, engine_speed, name):
