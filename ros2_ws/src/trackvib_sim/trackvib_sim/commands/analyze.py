@@ -96,7 +96,7 @@ def _levels(analyses):
 def _speeds(analyses):
     """By speed, of bags in which it varies."""
     table = _table("by speed: vertical RMS, m/s², and power absorbed by a driver, W", ("speed, m/s",))
-    for name in ("time, s", "engine, r/min", *(f"{sensor}{what}" for sensor in SENSORS for what in ("", ", W"))):
+    for name in ("time, s", "engine, r/min", *(name for sensor in SENSORS for name in (sensor, "W"))):
         table.add_column(name, justify="right")
     for analysis in _sections(table, [each for each in analyses if len(each.by_speed) > 1], "by_speed"):
         for band in analysis.by_speed:

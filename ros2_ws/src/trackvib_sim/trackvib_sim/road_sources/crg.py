@@ -1,6 +1,6 @@
 """Road surfaces as OpenCRG files [CRG]: heights on a grid along and across a reference line.
 
-A vehicle here drives straight ahead, so that files whose reference line is curved are refused. The grid's heights, with
+Curves are those of the drive, not of the road, so that files whose reference line is curved are refused. The grid's heights, with
 slope and banking of the line, are taken where the tracks run. All four representations are read: numbers as text of 10
 or 20 characters (LRFI, LDFI) and binary ones of 4 or 8 bytes, big-endian (KRBI, KDBI).
 
@@ -199,7 +199,7 @@ def _require_straight(phi, values, name):
     if turns > STRAIGHT:
         raise ProfileError(
             f"{name} is a road with a curve, its heading changes by {turns:.3g} rad; accepted are straight ones "
-            f"(up to {STRAIGHT:g} rad), for the vehicle here drives straight ahead"
+            f"(up to {STRAIGHT:g} rad), for curves are those of the drive"
         )
 
 
