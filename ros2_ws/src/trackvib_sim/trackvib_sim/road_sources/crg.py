@@ -1,8 +1,8 @@
 """Road surfaces as OpenCRG files [CRG]: heights on a grid along and across a reference line.
 
-Curves are those of the drive, not of the road, so that files whose reference line is curved are refused. The grid's heights, with
-slope and banking of the line, are taken where the tracks run. All four representations are read: numbers as text of 10
-or 20 characters (LRFI, LDFI) and binary ones of 4 or 8 bytes, big-endian (KRBI, KDBI).
+Curves are those of the drive, not of the road, so that files whose reference line is curved are refused. The grid's
+heights, with slope and banking of the line, are taken where the tracks run. All four representations are read: numbers
+as text of 10 or 20 characters (LRFI, LDFI) and binary ones of 4 or 8 bytes, big-endian (KRBI, KDBI).
 
 [CRG] ASAM OpenCRG 1.2.0, user manual, 2020.
 """
