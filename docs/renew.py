@@ -82,7 +82,7 @@ class Commands:
                 words = words[words.index("--") + 1 :]
             elif words[0] == "./trackvib":
                 words[0] = str(ROOT / "trackvib")
-            folder = self._top / str(len(self._done))
+            folder = self._top / str(sum(1 for _ in self._top.iterdir()))
             folder.mkdir()
             (folder / "docs").symlink_to(ROOT / "docs")  # which commands name from the top of a checkout
             done = subprocess.run(words, cwd=folder, env=self._env, capture_output=True, text=True, timeout=TIME_LIMIT)

@@ -94,7 +94,7 @@ def test_impossible_domain_is_refused(start_cli, env, domain):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--road", "Z"], ["--road", "'Z'", "A, B, C, D, E, F, G, H", ".csv"]),
+        (["--road", "Z"], ["road", "'Z'", "A, B, C, D, E, F, G, H", ".csv"]),
         (["--speed", "200"], ["--speed", "200", "-25.0<=x<=25.0"]),
         (["--speed", "nan"], ["--speed", "nan"]),
         (["--duration", "0"], ["--duration", "0.1<=x<=3600.0"]),

@@ -32,10 +32,10 @@ def refusal(tmp_path):
 
 def test_defaults_make_a_simulation(vehicle):
     """The defaults are those of the shipped vehicle at 10 m/s."""
-    simulation, usable, text = prepare({parameter.name: parameter.default for parameter in PARAMETERS})
+    simulation, usable, text, drive = prepare({parameter.name: parameter.default for parameter in PARAMETERS})
     assert simulation.settings.operation.speed == 10.0 and not simulation.road_is_enough()
     assert usable.tolist() == [0.0, 4.0]
-    assert text == find_vehicle().read_text(encoding="utf-8")
+    assert text == find_vehicle().read_text(encoding="utf-8") and drive == ""
 
 
 @pytest.mark.parametrize(

@@ -30,7 +30,8 @@ def standing_loads(stood, moved, added):
     system, state = standing.system, standing.state
     cuts, work = new_cuts(system.tree), new_track_work()
     road = Road(-400, 0.05, np.zeros((2, 801)))
-    add_tracks(system.tracks, state.tracks, state.tree, road, moved(system.tree, state.tree), cuts, work, 0.0)
+    motion, path = moved(system.tree, state.tree), state.drive.path
+    add_tracks(system.tracks, state.tracks, state.tree, road, path, motion, cuts, work, 0.0)
 
     def vectors(cells, first):
         by_quantity = cells.reshape(2, -1, STRIDE)[:, first : first + 3, 1 : system.tracks.chain.links[0] + 1]

@@ -255,4 +255,4 @@ def _print_summary(console, summary, folder):
 def _drive(force, power):
     """A line on the running resistance, none where the vehicle stands."""
     words = "at the sprockets, mean of the run"
-    return [] if force is None else [f"drive: {force / 1e3:.1f} kN, {power / 1e3:.0f} kW {words}"]
+    return [] if force is None else [f"drive: {force / 1e3:.1f} kN, {power / 1e3:.1f} kW {words}"]

@@ -15,7 +15,6 @@ from ..vehicle.drive.drive_file import DriveFileError, drive_text, parse_drive
 from ..vehicle.system import Operation
 from ..vehicle.vehicle_file import VehicleFileError, parse_vehicle, read_vehicle
 
-ROUNDING = 1e-9  # of an engine speed that was turned into rad/s and back
 PARAMETERS = (
     Parameter("vehicle_file", "", "Vehicle file; empty for the one that comes with the package."),
     Parameter("drive", "", "Drive file: speed, path and engine speed over time or distance. Empty for none."),
@@ -92,7 +91,7 @@ def simulation_of(vehicle, values, drive):
     try:
         schedule = parse_drive(drive, engine_speed, "drive file") if drive else None
         for speed in schedule.engine_speed if schedule else ():
-            _check_engine_speed(vehicle, "engine_speed in the drive file", speed / RPM)
+            _check_engine_speed(vehicle, "engine_speed in the drive file", round(float(speed / RPM), 6))
         operation = Operation(
             values["speed"], engine_speed, displacement, values["track_phase"], schedule, values["gears"]
         )
@@ -104,8 +103,8 @@ def simulation_of(vehicle, values, drive):
 
 def _check_engine_speed(vehicle, item, value):
     low, high = vehicle.engine.speed_range
-    if value != 0.0 and not low * (1.0 - ROUNDING) <= value <= high * (1.0 + ROUNDING):
-        raise ParameterError(f"simulator: {item} is {value:.10g}, accepted is 0 or {low:g} to {high:g} r/min")
+    if value != 0.0 and not low <= value <= high:
+        raise ParameterError(f"simulator: {item} is {value}, accepted is 0 or {low:g} to {high:g} r/min")
 
 
 def prepare_again(recording):

@@ -39,7 +39,8 @@ def exchange(system, state, road):
     """Evaluate the tracks' forces in a state; returns them and the `vehicle.tracks.TrackWork`."""
     work, chain = new_work(system), system.tracks.chain
     update_motion(system.tree, state.tree, work.motion)
-    add_tracks(system.tracks, state.tracks, state.tree, road, work.motion, work.cuts, work.tracks, system.dt)
+    path = state.drive.path
+    add_tracks(system.tracks, state.tracks, state.tree, road, path, work.motion, work.cuts, work.tracks, system.dt)
     turn = columns(work.motion, MotionOffset.ROTATION, 9)[chain.hull].reshape(3, 3)
     node = shoes(chain, work.tracks.nodes)
     before = work.tracks.nodes.reshape(2, -1, STRIDE)[:, :, : chain.links[0]]

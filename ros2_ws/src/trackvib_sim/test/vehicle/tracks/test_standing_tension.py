@@ -27,7 +27,15 @@ def mean_tension(vehicle, simulation, level_road):
             system, state, work = standing.system, standing.state, new_work(standing.system)
             update_motion(system.tree, state.tree, work.motion)
             add_tracks(
-                system.tracks, state.tracks, state.tree, level_road, work.motion, work.cuts, work.tracks, system.dt
+                system.tracks,
+                state.tracks,
+                state.tree,
+                level_road,
+                state.drive.path,
+                work.motion,
+                work.cuts,
+                work.tracks,
+                system.dt,
             )
             tension = shoes(system.tracks.chain, work.tracks.nodes)[RIGHT, NodeWorkOffset.TENSION]
             assert tension.shape == (links,) and tension.min() > 0.0

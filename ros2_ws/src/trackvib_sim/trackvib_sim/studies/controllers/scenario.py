@@ -12,7 +12,8 @@ from ...analysis.settling import SHORTEST_SETTLING, VEHICLE_BEHIND, settling_tim
 from ...analysis.vibration import band_limited, rms
 from ...numerics.units import NANO, RPM
 from ...road.bump import Bump
-from ...road.iso8608 import FADE, LEVEL_UNTIL
+from ...road.iso8608 import FADE, LEVEL_UNTIL, SPACING
+from ...road.obstacles import LevelRoad
 from ...simulation.closed_loop import run_closed_loop
 from ...simulation.run_in import CannotRoll
 from ...simulation.settings import RunSettings
@@ -60,7 +61,7 @@ def _bump(speed):
 
 def _run_up():
     title = f"standing, engine {IDLE:g}-{HIGHEST:g} r/min"
-    level = Bump(0.0, LENGTH, 0.0)
+    level = LevelRoad(SPACING)
     duration = (HIGHEST - IDLE) / RAMP
     at, engine_speed = np.array([CALMING, CALMING + duration]), RPM * np.array([IDLE, HIGHEST])
     faster = Schedule(False, at, np.zeros(2), np.zeros(2), engine_speed)

@@ -11,7 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ...data import m113_histories_file
-from ...road.iso8608 import Exponential, Iso8608Road
+from ...road.iso8608 import SPACING, Exponential, Iso8608Road
+from ...road.obstacles import LevelRoad
 
 LEVEL, ROUGH = "level", "C"
 RATE = 1000  # means a second
@@ -38,17 +39,9 @@ class Reference(NamedTuple):
         return self.start + self.speed / RATE * np.arange(len(self.vertical))
 
 
-class LevelRoad:
-    """A road without heights."""
-
-    def heights(self, first, count):
-        """Return zeros (2, count)."""
-        return np.zeros((2, count))
-
-
 def road_of(case):
     """Return the road of a case's name, for `road.feeder`."""
-    return _ROADS.get(case, LevelRoad())
+    return _ROADS.get(case, LevelRoad(SPACING))
 
 
 @cache

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...road.bump import Bump
+from ...road.obstacles import LevelRoad
 from ...simulation.open_loop import run_open_loop
 from ...simulation.run_in import CannotRoll
 from ...simulation.settings import Rates, RunSettings
@@ -18,7 +18,7 @@ AROUND = 30.0  # m of road before and behind a vehicle
 SPACING = 0.5  # m
 TRACK_PHASE = 0.25  # neither in step nor in opposition
 CURRENT = 1.0  # A
-LEVEL = Bump(0.0, 1.0, 0.0)
+LEVEL = LevelRoad(SPACING)
 
 
 @dataclass(frozen=True)

@@ -18,8 +18,8 @@ class Schedule(NamedTuple):
     >>> import trackvib_sim as tv
     >>> import numpy as np
     >>> faster = tv.Schedule(False, np.array([0.0, 5.0]), np.array([5.0, 10.0]), np.zeros(2), np.zeros(2))
-    >>> faster.speed[-1]  # m/s, from 5 s on
-    10.0
+    >>> faster.speed.tolist()  # m/s, until 0 s and from 5 s on
+    [5.0, 10.0]
     """
 
     by_distance: bool
