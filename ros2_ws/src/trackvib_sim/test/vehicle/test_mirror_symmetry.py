@@ -38,8 +38,8 @@ def partner(rows):
 def mirror(state, partner, turret):
     """Turn a state in place into its mirror image about the plane y = 0."""
     tree, tracks = state.tree, state.tracks
-    state.drive.path.offset *= -1.0
-    state.drive.driving.turn_integral *= -1.0
+    state.drive.path.offset[0] *= -1.0
+    state.drive.driving.turn_integral[0] *= -1.0
     tree.position[0] *= (1, -1, 1)
     tree.velocity[0] *= (1, -1, 1)
     tree.attitude[0] *= (1, -1, 1, -1)
