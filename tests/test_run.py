@@ -179,7 +179,7 @@ def test_summary_and_picture(first):
     assert f"{summary['rms_mps2']['powertrain']['z']:.3f}" in printed
     assert float(summary["loop"]["real_time_factor"]) > 0.0
     assert 5e3 < summary["drive_N"] < 5e4
-    assert f"drive: {summary['drive_N'] / 1e3:.1f} kN, {summary['drive_W'] / 1e3:.0f} kW" in printed
+    assert f"drive: {summary['drive_N'] / 1e3:.1f} kN, {summary['drive_W'] / 1e3:.1f} kW" in printed
     mounts = MountEnergy(**summary["mounts_J"])
     assert mounts.dissipated > 0.0 and mounts.exchanged != 0.0 and mounts.error < 1e-3
     assert f"{mounts.work:.1f} J of work" in printed

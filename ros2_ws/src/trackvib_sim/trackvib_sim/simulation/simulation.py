@@ -20,7 +20,6 @@ from .step import REASONS, Status, advance_many, control_periods, new_sample, ob
 
 CHASSIS, POWERTRAIN = 0, 1  # rows of the sample
 HORIZON = 50.0  # m of road that a run in one process keeps ahead of the vehicle
-_MARGIN = 1.0  # m of road beyond sprockets and idlers
 
 
 class Probe(NamedTuple):
@@ -82,7 +81,7 @@ class Simulation:
         self.sensors = sensors_of(vehicle)
         self.mounting = mounting_of(vehicle)
         self.points = points_of(self.sensors, probes, body_rows(vehicle, self.system.tree), settings.rates)
-        self._reach = max(abs(vehicle.idlers.x), abs(vehicle.sprockets.x)) + _MARGIN
+        self._reach = self.system.drive.reach
         self._fastest = max(self.system.drive.schedule.speed, key=abs)
         self._expected = []
         self.reset()

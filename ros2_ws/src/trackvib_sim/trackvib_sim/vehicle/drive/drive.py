@@ -11,7 +11,7 @@ from .engine import Crank, Engine, build_engine, turn_crank
 from .path import Path, follow_path, new_path
 from .schedule import Schedule, Wanted, new_wanted, scheduled, wanted_speed
 
-AHEAD = 1.0  # m of path beyond the vehicle's front
+AHEAD = 1.0  # m of path and road beyond sprockets and idlers
 
 
 class Drive(NamedTuple):
@@ -21,7 +21,7 @@ class Drive(NamedTuple):
     driver: Driver
     engine: Engine
     driveline: Driveline
-    reach: float  # m from the hull's origin to where the path is laid
+    reach: float  # m from the hull's origin, either way, of the road that is needed and of the path that is laid
 
 
 class DriveState(NamedTuple):
