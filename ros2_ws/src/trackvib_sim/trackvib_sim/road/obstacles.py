@@ -54,7 +54,23 @@ class HalfRound(_Obstacle):
         return np.sqrt(np.maximum(self.radius**2 - (x - self.radius) ** 2, 0.0))
 
 
-class Step(_Obstacle):
+class _Lengthwise(_Obstacle):
+    """Its length is given."""
+
+    length: Size
+
+    @property
+    def end(self):
+        """Length [m]."""
+        return self.length
+
+    def plateau(self, x, ramp):
+        """Part of the whole height at distances from its beginning: 0 to 1 over a ramp [m], level, and back."""
+        ramp = min(ramp, 0.5 * self.length)
+        return np.minimum(1.0, np.minimum(x, self.length - x) / ramp)
+
+
+class Step(_Lengthwise):
     """A step up, and down again after its length: a square bump. Edges are one sample long.
 
     Examples
@@ -66,52 +82,33 @@ class Step(_Obstacle):
 
     shape: Literal["step"]
     height: Wall
-    length: Size
-
-    @property
-    def end(self):
-        """Length [m]."""
-        return self.length
 
     def shape_at(self, x):
         """Height [m] at distances from its beginning."""
         return np.full_like(x, self.height)
 
 
-class VRamp(_Obstacle):
+class VRamp(_Lengthwise):
     """An inverted V: up over half its length, down over the other."""
 
     shape: Literal["v_ramp"]
     height: Height
-    length: Size
-
-    @property
-    def end(self):
-        """Length [m]."""
-        return self.length
 
     def shape_at(self, x):
         """Height [m] at distances from its beginning."""
         return self.height * (1.0 - np.abs(2.0 * x / self.length - 1.0))
 
 
-class Trapezoid(_Obstacle):
+class Trapezoid(_Lengthwise):
     """Up over a ramp, level, and down over another; `length` is all of it."""
 
     shape: Literal["trapezoid"]
     height: Height
-    length: Size
     ramp: Size
-
-    @property
-    def end(self):
-        """Length [m]."""
-        return self.length
 
     def shape_at(self, x):
         """Height [m] at distances from its beginning."""
-        ramp = min(self.ramp, 0.5 * self.length)
-        return self.height * np.minimum(1.0, np.minimum(x, self.length - x) / ramp)
+        return self.height * self.plateau(x, self.ramp)
 
 
 class Sine(_Obstacle):
@@ -132,23 +129,16 @@ class Sine(_Obstacle):
         return 0.5 * self.height * (1.0 - np.cos(2.0 * np.pi * x / self.wavelength))
 
 
-class Pothole(_Obstacle):
+class Pothole(_Lengthwise):
     """A hole: down over a ramp, level, and up again; `length` is all of it."""
 
     shape: Literal["pothole"]
     depth: Height
-    length: Size
     ramp: Size = FINE
-
-    @property
-    def end(self):
-        """Length [m]."""
-        return self.length
 
     def shape_at(self, x):
         """Height [m] at distances from its beginning, below zero."""
-        ramp = min(self.ramp, 0.5 * self.length)
-        return -self.depth * np.minimum(1.0, np.minimum(x, self.length - x) / ramp)
+        return -self.depth * self.plateau(x, self.ramp)
 
 
 Obstacle = Annotated[HalfRound | Step | VRamp | Trapezoid | Sine | Pothole, Field(discriminator="shape")]
