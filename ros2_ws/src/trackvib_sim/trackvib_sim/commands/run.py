@@ -8,6 +8,7 @@ import socket
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from datetime import datetime
+from math import isfinite
 from pathlib import Path
 
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
@@ -108,11 +109,13 @@ def run_loop(choices, out):
 
 
 def _settling(choices, begins):
-    """How long a run settles [s]: until all of the vehicle is on the road proper, which begins at a distance [m]."""
+    """How long a run settles [s]: until all of the vehicle is on the road proper, which begins at a distance [m].
+
+    A vehicle that never gets there, for it stands, settles as shortly as any."""
     if choices.drive is None:
         return settling_time(choices.speed, begins)
-    schedule = parse_drive(drive_text(choices.drive), 0.0, choices.drive)
-    return max(arrival_time(schedule, begins + VEHICLE_BEHIND), SHORTEST_SETTLING)
+    arrival = arrival_time(parse_drive(drive_text(choices.drive), 0.0, choices.drive), begins + VEHICLE_BEHIND)
+    return max(arrival, SHORTEST_SETTLING) if isfinite(arrival) else SHORTEST_SETTLING
 
 
 @contextmanager
