@@ -126,6 +126,19 @@ def test_energy_is_accounted_for(driven, drive, level, schedule, begin):
     assert meter.account.given[Source.DRIVER] != 0.0
 
 
+@pytest.mark.slow(reason="drives for many seconds")
+def test_backwards_the_lane_is_kept_and_a_bend_taken_again(driven, drive, level):
+    """After a bend a vehicle that is told to go back follows its path to the start and beyond, and then forwards."""
+    moving = driven(scheduled([0.0], [5.0]))
+    list(drive(moving, level, 500))
+    for speed, yaw_rate, seconds in ((6.0, 0.2, 6), (-5.0, 0.0, 16), (4.0, 0.0, 6)):
+        moving.command(speed, yaw_rate)
+        offset = [each.state.drive.path.offset[0] for each in drive(moving, level, 1000 * seconds)]
+        assert np.abs(offset).max() < 1.0 and abs(offset[-1]) < 0.5
+        assert speed_of(moving) == pytest.approx(speed, abs=0.3)
+    assert moving.distance < 0.0
+
+
 def test_a_command_holds_from_the_next_period_on(driven, drive, level):
     """Speed and curvature replace the schedule's; the path bends ahead of the front, not under the hull."""
     moving = driven(scheduled([0.0], [5.0]))

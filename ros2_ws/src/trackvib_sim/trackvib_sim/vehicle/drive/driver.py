@@ -16,7 +16,7 @@ from .path import path_heading
 
 ACCELERATION_LIMIT = 2.0  # m/s^2, where the file gives none
 TURN_RESET = 0.5  # s in which a lasting error of turning doubles the steering moment
-SLOWEST_COURSE = 1.0  # m/s, below which the hull's drift tells nothing of its course
+SLOWEST_COURSE = 1.0  # m/s, below which drift tells nothing of the course, and steering leads less and less aside
 
 
 class Driver(NamedTuple):
@@ -132,9 +132,10 @@ def _steering_moment(drive, state, motion, velocity, dt):
     turn = rotation(motion, driver.hull)
     direction, curvature = path_heading(path)
     course = np.arctan2(turn[3], turn[0])
+    way = min(max(velocity[0] / SLOWEST_COURSE, -1.0), 1.0)  # backwards the same heading leads to the other side
     if path.curved[0]:
-        course += velocity[1] / max(abs(velocity[0]), SLOWEST_COURSE)
-    error = direction - driver.lane_gain * path.offset[0] - course
+        course += way * velocity[1] / max(abs(velocity[0]), SLOWEST_COURSE)
+    error = direction - way * driver.lane_gain * path.offset[0] - course
     error -= 2.0 * np.pi * np.floor((error + np.pi) / (2.0 * np.pi))
     turning = motion_vector(motion, MotionOffset.ANGULAR_VELOCITY, driver.hull)[2] - curvature * velocity[0]
     moment = driver.heading_gain * error - driver.heading_damping * turning
