@@ -18,7 +18,7 @@ import click
 from machine import machine
 from trackvib_sim.analysis.completeness import missing
 from trackvib_sim.bags.reading import read_recording
-from trackvib_sim.nodes.processes import end_with_parent
+from trackvib_sim.nodes.forked_node import end_with_parent
 
 CLI = (sys.executable, "-m", "trackvib_sim.cli")
 

@@ -20,7 +20,7 @@ from trackvib_sim.simulation.lockstep import OUTCOMES
 
 RATE = 1000  # Hz
 LOOK = 0.2  # s
-PROCESSES = {name: package for name, package in FOUR_PROCESSES.items() if name != "recorder"}
+PROCESSES = [name for name in FOUR_PROCESSES if name != "recorder"]
 
 
 def wait_for_end(processes, exchanges):
@@ -43,12 +43,10 @@ def main(exchanges, road):
         "controller": {"law": "skyhook", "wait_for_recorder": False},
         "road_excitation": {"road": road},
     }
-    with tempfile.TemporaryDirectory() as logs:
-        processes = LoopProcesses(PROCESSES, closed_loop_parameters(), overrides, logs)
-        try:
-            reported = wait_for_end(processes, exchanges)
-        finally:
-            codes = processes.stop()
+    with LoopProcesses(PROCESSES) as processes, tempfile.TemporaryDirectory() as logs:
+        processes.start(closed_loop_parameters(), overrides, logs)
+        reported = wait_for_end(processes, exchanges)
+        codes = processes.stop()
         said = {name: processes.last_words(name) for name in PROCESSES}
     if any(codes.values()) or "answers:" not in said["simulator"]:
         sys.exit("\n".join(f"{name} ended with code {codes[name]}:\n{said[name]}" for name in PROCESSES))

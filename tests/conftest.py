@@ -2,8 +2,6 @@
 
 import fcntl
 import os
-import subprocess
-import sys
 import tempfile
 import time
 from contextlib import contextmanager
@@ -20,7 +18,7 @@ from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import Trigger
 
 from .bag_helpers import edit_bag
-from .processes import PATIENCE, Node, Process
+from .processes import PATIENCE, Process, Program, trackvib
 
 PACKAGES = {
     "simulator": "trackvib_sim",
@@ -77,12 +75,10 @@ def recorded_run(tmp_path_factory):
 
 
 def _record_run(folder):
-    command = [sys.executable, "-m", "trackvib_sim.cli", "run", "--law", "skyhook", "--duration", "3.2"]
+    made = folder.with_suffix(".new")
     with free_domain() as number:
         env = {**os.environ, "ROS_DOMAIN_ID": str(number)}
-        made = folder.with_suffix(".new")
-        done = subprocess.run([*command, "--out", str(made)], env=env, capture_output=True, text=True, timeout=300)
-    assert done.returncode == 0, done.stdout + done.stderr
+        trackvib("run", "--law", "skyhook", "--duration", "3.2", "--out", made, env=env)
     made.rename(folder)
 
 
@@ -120,7 +116,19 @@ def start(processes, tmp_path, env):
 
 
 @pytest.fixture
-def start_node(processes, start, tmp_path, env):
+def fork(processes, tmp_path, env):
+    """Start programs of ours that end with the test: `fork(name, arguments)`."""
+
+    def make(name, arguments):
+        log = tmp_path / f"process_{len(processes)}.log"
+        processes.append(Program(name, [str(word) for word in arguments], log, env, tmp_path))
+        return processes[-1]
+
+    return make
+
+
+@pytest.fixture
+def start_node(start, fork):
     """Start one of the nodes by its installed entry point: `start_node("simulator", speed=5.0)`.
 
     `before` are words of a command that runs its executable.
@@ -132,8 +140,7 @@ def start_node(processes, start, tmp_path, env):
             words += ["-p", f"{parameter}:={str(value).lower() if isinstance(value, bool) else value}"]
         if before:
             return start([*before, f"{get_package_prefix(PACKAGES[name])}/lib/{PACKAGES[name]}/{name}", *words])
-        processes.append(Node(name, words, tmp_path / f"process_{len(processes)}.log", env, tmp_path))
-        return processes[-1]
+        return fork(name, words)
 
     return make
 
@@ -211,6 +218,6 @@ def observer(domain):
 
 
 @pytest.fixture
-def start_cli(start):
+def start_cli(fork):
     """Start the command line: `start_cli("run", "--speed", 5)`."""
-    return lambda *arguments: start([sys.executable, "-m", "trackvib_sim.cli", *arguments])
+    return lambda *arguments: fork("trackvib", arguments)

@@ -1,4 +1,4 @@
-"""Real processes of a test: commands, and nodes forked from a server that has everything loaded."""
+"""Real processes of a test: commands, and programs of ours forked from a server that has everything loaded."""
 
 import multiprocessing
 import multiprocessing.forkserver
@@ -6,21 +6,22 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
 import pytest
-from trackvib_sim.nodes.processes import end_with_parent
+from trackvib_sim.nodes.forked_node import end_with_parent
 
-NODE_SERVER = Path(__file__).parent / "node_server"
-sys.path.append(str(NODE_SERVER))  # under the name that the server knows it by
+PROGRAM_SERVER = Path(__file__).parent / "program_server"
+sys.path.append(str(PROGRAM_SERVER))  # under the name that the server knows it by
 
-from node_process import become  # noqa: E402
+from program import become  # noqa: E402
 
 # Only a bound for what hangs; nothing here measures speed.
-PATIENCE = 90.0
+PATIENCE = 200.0
 _SERVER = multiprocessing.get_context("forkserver")
-_SERVER.set_forkserver_preload(["node_process", "loaded"])
+_SERVER.set_forkserver_preload(["program", "loaded"])
 
 
 def _begin():
@@ -81,14 +82,14 @@ class Process:
             self._process.wait()
 
 
-class Node(Process):
-    """A node in a process of its own, forked where its libraries and kernels are loaded: these take the longest."""
+class Program(Process):
+    """A node or the command line in a process of its own, forked where libraries and kernels are loaded already."""
 
     def __init__(self, name, arguments, log, env, folder):
         self._log = log
         log.touch()
         with pytest.MonkeyPatch.context() as patch:  # where the server, at its start, finds what it shall load
-            patch.setenv("PYTHONPATH", os.pathsep.join([str(NODE_SERVER), os.environ.get("PYTHONPATH", "")]))
+            patch.setenv("PYTHONPATH", os.pathsep.join([str(PROGRAM_SERVER), os.environ.get("PYTHONPATH", "")]))
             multiprocessing.forkserver.ensure_running()
         self._process = _SERVER.Process(target=become, args=(name, arguments, log, env, folder))
         self._process.start()
@@ -104,10 +105,37 @@ class Node(Process):
         return self._process.exitcode
 
     def signal(self, number):
-        """Send a signal; a node has no processes of its own."""
-        os.kill(self.pid, number)
+        while self.running and os.getpgid(self.pid) != self.pid:  # it is about to have a group of its own
+            time.sleep(0.01)
+        super().signal(number)
 
     def clean_up(self):
         if self.running:
-            self._process.kill()
+            self.signal(signal.SIGKILL)
             self._process.join()
+
+
+def trackvib(*arguments, code=0, cwd=None, env=None):
+    """Run the command line to its end, which must be with an exit code; returns what it printed."""
+    with tempfile.TemporaryDirectory() as folder:
+        log = Path(folder) / "printed.log"
+        program = Program(
+            "trackvib", [str(word) for word in arguments], log, env or dict(os.environ), cwd or Path.cwd()
+        )
+        try:
+            assert program.wait() == code, program.output
+            return program.output
+        finally:
+            program.clean_up()
+
+
+def nodes_of(run):
+    """Return the process ids of the nodes that print to a run's folder, by name."""
+    found = {}
+    for process in Path("/proc").glob("[0-9]*"):
+        try:
+            if (process / "fd" / "1").readlink().is_relative_to(run / "log"):
+                found[(process / "comm").read_text().strip()] = int(process.name)
+        except OSError:  # it has ended, or is another user's
+            continue
+    return found

@@ -8,6 +8,7 @@ import yaml
 from trackvib_sim.bags.reading import read_recording
 
 from .conftest import wait_until
+from .processes import nodes_of
 
 pytestmark = [pytest.mark.system, pytest.mark.slow(reason="starts whole runs to end them")]
 
@@ -15,22 +16,6 @@ pytestmark = [pytest.mark.system, pytest.mark.slow(reason="starts whole runs to 
 def wait_for_text(path, text):
     """Wait until a log holds a text."""
     wait_until(lambda: path.exists() and text in path.read_text(), 60.0, f"{text!r} in {path}")
-
-
-def nodes_of(folder):
-    """Return the processes that write to a run's folder."""
-    found = []
-    for entry in os.listdir("/proc"):
-        if entry.isdigit():
-            try:
-                with open(f"/proc/{entry}/cmdline", "rb") as file:
-                    command = file.read().decode()
-                logs = os.readlink(f"/proc/{entry}/fd/1").startswith(str(folder))
-            except OSError:
-                continue
-            if logs and "--ros-args" in command:
-                found.append(entry)
-    return found
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
@@ -45,7 +30,7 @@ def test_interrupted_run_leaves_a_complete_bag(start_cli, tmp_path, number):
     drive = read_recording(tmp_path / "run" / "bag")
     assert drive.diagnostics["state"] == "stopped"
     assert len(drive.chassis.stamp) - len(drive.answers.sample_stamp) in (0, 1)
-    assert nodes_of(tmp_path) == []
+    assert not nodes_of(tmp_path / "run")
 
 
 def test_killed_run_leaves_no_process(start_cli, tmp_path):
@@ -54,7 +39,7 @@ def test_killed_run_leaves_no_process(start_cli, tmp_path):
     wait_for_text(tmp_path / "run" / "log" / "simulator.log", "running")
     os.kill(run.pid, signal.SIGKILL)
     run.wait()
-    wait_until(lambda: not nodes_of(tmp_path), 30.0, "the end of all nodes")
+    wait_until(lambda: not nodes_of(tmp_path / "run"), 30.0, "the end of all nodes")
     assert (tmp_path / "run" / "bag" / "metadata.yaml").exists()
 
 
@@ -62,13 +47,10 @@ def test_a_node_that_dies_ends_the_run_with_its_name(start_cli, tmp_path):
     """If the recorder is killed, the run ends, says which node it was, and exits with an error."""
     run = start_cli("run", "--duration", 600, "--out", tmp_path / "run")
     wait_for_text(tmp_path / "run" / "log" / "simulator.log", "running")
-    for pid in nodes_of(tmp_path):
-        with open(f"/proc/{pid}/cmdline") as file:
-            if "/recorder\0" in file.read():
-                os.kill(int(pid), signal.SIGKILL)
+    os.kill(nodes_of(tmp_path / "run")["recorder"], signal.SIGKILL)
     assert run.wait() == 1
     assert "'recorder'" in run.output
-    assert nodes_of(tmp_path) == []
+    assert not nodes_of(tmp_path / "run")
 
 
 def test_a_second_run_in_the_same_domain_is_refused(start_cli, tmp_path):

@@ -5,7 +5,6 @@ import shutil
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from mr_mount_controller.node_base.cdr import leading_stamp
@@ -15,6 +14,7 @@ from trackvib_sim.analysis.completeness import missing
 from trackvib_sim.bags.reading import read_recording
 
 from .conftest import wait_until
+from .processes import nodes_of
 
 pytestmark = [pytest.mark.system, pytest.mark.slow(reason="does whole runs")]
 
@@ -23,13 +23,6 @@ RUN = ("run", "--duration", "3.2", "--one-process", "--out")
 
 def command(*arguments):
     return [sys.executable, "-m", "trackvib_sim.cli", *map(str, arguments)]
-
-
-def children(pid):
-    """Return the process ids of a process's children by what they run."""
-    found = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
-    return {Path(f"/proc/{child}/cmdline").read_bytes().split(b"\0")[1].rpartition(b"/")[2].decode(): int(child)
-            for child in found}  # fmt: skip
 
 
 def one_error(text):
@@ -135,10 +128,10 @@ def test_a_run_whose_folder_goes(start_cli, tmp_path):
 
 def test_a_run_that_lost_messages_says_so(start_cli, observer, tmp_path):
     """A recorder that stands still for longer than it is waited for: what it missed is counted, the exit code tells."""
-    run = start_cli("run", "--duration", "6", "--one-process", "--out", tmp_path / "out")
+    run = start_cli("run", "--duration", "8", "--one-process", "--out", tmp_path / "out")
     log = tmp_path / "out" / "log" / "one_process.log"
-    wait_until(lambda: log.exists() and "answering" in log.read_text())
-    recorder = children(run.pid)["recorder"]
+    observer.wait_until(lambda: float(observer.values.get("time", 0.0)) > 3.2)  # s, enough to be measured
+    recorder = nodes_of(tmp_path / "out")["recorder"]
     os.kill(recorder, signal.SIGSTOP)
     try:
         wait_until(lambda: "the recorder does not keep up" in log.read_text())

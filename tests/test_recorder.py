@@ -27,6 +27,7 @@ from trackvib_sim.nodes.messages import ImuMessage, MountMessage
 from trackvib_sim.vehicle.mounts import MountSample
 
 from .bag_helpers import attachment
+from .processes import trackvib
 
 STREAM = Path(__file__).parent / "imu_stream.py"
 LOOP_TOPICS = ("/chassis/imu", "/powertrain/imu", "/coil_current", "/mount_state")
@@ -76,9 +77,7 @@ def test_killed_recorder_loses_the_last_second_at_most(start, start_node, observ
     recorder.signal(signal.SIGKILL)
     recorder.wait()
     assert not (tmp_path / "bag" / "metadata.yaml").exists()
-    command = [sys.executable, "-m", "trackvib_sim.cli", "bag", "repair", tmp_path / "bag"]
-    done = subprocess.run(command, capture_output=True, text=True)
-    assert done.returncode == 0 and "index restored" in done.stdout, done.stdout + done.stderr
+    assert "index restored" in trackvib("bag", "repair", tmp_path / "bag")
     stamps, counts = counted(tmp_path / "bag", "/stream")
     with Reader(tmp_path / "bag") as reader:
         assert reader.message_count == len(stamps)

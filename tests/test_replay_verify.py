@@ -2,6 +2,7 @@
 
 import shutil
 import signal
+import sys
 from pathlib import Path
 
 import pytest
@@ -157,9 +158,9 @@ def test_a_run_is_no_bag(start_cli, recorded_run):
 
 
 @SLOW
-def test_interrupted_at_any_moment(start_cli, recorded_run):
+def test_interrupted_at_any_moment(start, recorded_run):
     """Also while it is still loading its libraries: one word, and no code that stands for a verdict."""
-    replay = start_cli("replay", recorded_run / "bag", "--verify")
+    replay = start([sys.executable, "-m", "trackvib_sim.cli", "replay", recorded_run / "bag", "--verify"])
     while "zstandard" not in Path(f"/proc/{replay.pid}/maps").read_text():  # needed first by what a verb does
         assert replay.running
     replay.signal(signal.SIGINT)

@@ -2,8 +2,6 @@
 
 import json
 import os
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -13,17 +11,11 @@ from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.road_sources.csv_profile import read_csv_profile, write_csv_profile
 from trackvib_sim.road_sources.road_file import find_road
 
+from .processes import trackvib
+
 ROAD = """ground: {class: C, seed: 3, level_until: 2, fade: 2}
 obstacles: [{shape: v_ramp, at: 12, height: 0.1, length: 1.0}]
 """
-
-
-def trackvib(*arguments, code=0, **options):
-    """Run a verb; returns what it printed."""
-    command = [sys.executable, "-m", "trackvib_sim.cli", *map(str, arguments)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=300, **options)
-    assert done.returncode == code, done.stdout + done.stderr
-    return done.stdout + done.stderr
 
 
 @pytest.mark.property

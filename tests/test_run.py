@@ -1,8 +1,6 @@
 """`trackvib run`: the whole main job, by real processes, judged by what it leaves."""
 
 import json
-import subprocess
-import sys
 from array import array
 from itertools import islice
 from pathlib import Path
@@ -28,6 +26,8 @@ from trackvib_sim.vehicle.mount_energy import MountEnergy
 from trackvib_sim.vehicle.system import Operation
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
+from .processes import trackvib
+
 SAMPLES = 10_000
 LOOP_TOPICS = ("/chassis/imu", "/powertrain/imu", "/coil_current", "/mount_state")
 
@@ -44,10 +44,7 @@ def own_domain(domain):
 
 def run(folder, *options):
     """Do a run in a folder and return what it printed."""
-    command = [sys.executable, "-m", "trackvib_sim.cli", "run", "--law", "skyhook", "--out", str(folder), *options]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
+    return trackvib("run", "--law", "skyhook", "--out", folder, *options)
 
 
 @pytest.fixture(scope="module")
@@ -191,9 +188,7 @@ def test_summary_and_picture(first):
 def test_analysis_of_the_bag_agrees_with_the_summary(first, tmp_path):
     """`trackvib analyze` gives the run's own numbers again, and leaves them as tables."""
     out = tmp_path / "out"
-    command = [sys.executable, "-m", "trackvib_sim.cli", "analyze", str(first[0] / "bag"), "--out", str(out)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
-    assert done.returncode == 0, done.stdout + done.stderr
+    printed = trackvib("analyze", first[0] / "bag", "--out", out)
     summary = json.loads((first[0] / "summary.json").read_text())
     (found,) = json.loads((out / "numbers.json").read_text())["bags"]
     rms = {sensor: {axis: n["rms"] for axis, n in axes.items()} for sensor, axes in found["sensors"].items()}
@@ -204,13 +199,11 @@ def test_analysis_of_the_bag_agrees_with_the_summary(first, tmp_path):
     lines = {line["name"]: line["frequency"] for line in found["lines"]}
     assert lines["link passing 1"] == pytest.approx(87.0, rel=0.01) and lines["engine order 2"] == 55.0
     assert {"numbers.csv", "spectra.parquet", "history.parquet", "report.html"} <= {p.name for p in out.iterdir()}
-    assert f"{rms['powertrain']['z']:.3f}" in done.stdout and "link passing 1" in done.stdout
+    assert f"{rms['powertrain']['z']:.3f}" in printed and "link passing 1" in printed
 
 
 def test_a_folder_is_never_overwritten(first):
     """A second run into the same folder is refused and leaves it as it was."""
     before = sorted(Path(first[0]).rglob("*"))
-    command = [sys.executable, "-m", "trackvib_sim.cli", "run", "--out", str(first[0])]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
-    assert done.returncode != 0 and "exists already" in done.stderr
+    assert "exists already" in trackvib("run", "--out", first[0], code=1)
     assert sorted(Path(first[0]).rglob("*")) == before

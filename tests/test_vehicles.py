@@ -1,13 +1,13 @@
 """Runs of other vehicles by real processes: with two coils of four, with four, with none, and backwards."""
 
 import json
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.data import find_vehicle
+
+from .processes import trackvib
 
 pytestmark = [pytest.mark.system, pytest.mark.slow(reason="does whole runs of other vehicles")]
 
@@ -25,14 +25,6 @@ SEAT = """
 def own_domain(domain, monkeypatch):
     """All runs of a test in one domain."""
     monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
-
-
-def trackvib(*arguments):
-    """Run a verb and return what it printed."""
-    command = [sys.executable, "-m", "trackvib_sim.cli", *map(str, arguments)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
 
 
 @pytest.fixture

@@ -74,8 +74,11 @@ def replay(bag, verify, law, controller, out):
 
             run_replay_law(bag, law, out, console)
         else:
-            from .replay_controller import run_replay_controller
+            from ..nodes.processes import LoopProcesses
 
-            run_replay_controller(bag, None if controller == EXTERNAL else controller, out, console)
+            with LoopProcesses([] if controller == EXTERNAL else ["controller"]) as stock:
+                from .replay_controller import run_replay_controller  # loads ROS 2, after the process has been made
+
+                run_replay_controller(bag, None if controller == EXTERNAL else controller, stock, out, console)
     except (BagError, LawError, CommandError, ValueError, OSError) as error:
         fail(error, *((CANNOT_VERIFY, "cannot be verified") if verify else ()))

@@ -18,7 +18,7 @@ from ..bags.reading import read_recording
 from ..bags.writing import BagWriter
 from ..console import followed
 from ..nodes.controller_trial import ControllerTrial
-from ..nodes.processes import LoopProcesses, closed_loop_parameters
+from ..nodes.processes import closed_loop_parameters
 from ..numerics.units import NANO
 from .result_folder import CommandError, all_or_nothing
 from .run import own_domain
@@ -26,8 +26,10 @@ from .run import own_domain
 REPLAYED = "/replayed/current"  # topic of the new answers
 
 
-def run_replay_controller(bag, law, out, console):
+def run_replay_controller(bag, law, stock, out, console):
     """Replay into a stock controller with a law, or with None into the one that the user runs.
+
+    `stock` is its `LoopProcesses`, made before ROS 2 was loaded.
 
     Leaves the recorded messages with the new answers as a bag, a summary, and a picture where there is something to
     compare, in the new folder `out`.
@@ -48,7 +50,7 @@ def run_replay_controller(bag, law, out, console):
     summary = {"bag": str(bag), "controller": law or "external", "samples": samples}
     title = f"{called(bag)} into {law or 'a controller'}"
     with own_domain(), all_or_nothing(out) as folder:
-        replayed, interrupt = _replay_into_bag(recording, law, folder, console)
+        replayed, interrupt = _replay_into_bag(recording, stock, law, folder, console)
         summary |= {
             "answered": len(replayed),
             **_compare(_answers(recording), replayed, recording.mounting.names, folder / "currents.png", title),
@@ -60,7 +62,7 @@ def run_replay_controller(bag, law, out, console):
     console.print(f"left in {folder}: {', '.join(sorted(path.name for path in folder.iterdir()))}", soft_wrap=True)
 
 
-def _replay_into_bag(recording, law, folder, console):
+def _replay_into_bag(recording, stock, law, folder, console):
     """Write all recorded messages and the answers to a bag.
 
     Returns the answers and the KeyboardInterrupt that ended it, or None: the bag is whole all the same.
@@ -71,7 +73,7 @@ def _replay_into_bag(recording, law, folder, console):
         for name, values in recording.provenance.items():
             writer.add_provenance(name, values)
         writer.add_provenance("replay", {"bag": recording.path, "controller": law or "external"})
-        _replay(recording, law, writer, replayed, folder, console)
+        _replay(recording, stock, law, writer, replayed, folder, console)
     except KeyboardInterrupt as interrupt:
         return replayed, interrupt
     finally:
@@ -79,11 +81,11 @@ def _replay_into_bag(recording, law, folder, console):
     return replayed, None
 
 
-def _replay(recording, law, writer, replayed, folder, console):
+def _replay(recording, stock, law, writer, replayed, folder, console):
     """Add the controller's currents by stamp [ns] to `replayed`, and to the bag, as they come."""
     topics, stamps = recording.topics, recording.chassis.stamp
     with (
-        _controller(law, round(NANO / period_of(stamps)), folder) as check,
+        _controller(stock, law, round(NANO / period_of(stamps)), folder) as check,
         ControllerTrial(recording.mounting) as trial,
     ):
         if law is None:
@@ -111,23 +113,23 @@ def _answers(recording):
 
 
 @contextmanager
-def _controller(law, rate, folder):
-    """Run a stock controller, unless the user does; gives what raises `CommandError` if it has ended."""
+def _controller(stock, law, rate, folder):
+    """Run the stock controller, unless the user runs one; gives what raises `CommandError` if it has ended."""
     if law is None:
         yield lambda: None
         return
     (folder / "log").mkdir()
     given = {"controller": {"law": law, "sample_rate": rate, "wait_for_recorder": False}}
-    processes = LoopProcesses({"controller": "mr_mount_controller"}, closed_loop_parameters(), given, folder / "log")
+    stock.start(closed_loop_parameters(), given, folder / "log")
 
     def check():
-        if processes.ended():
-            raise CommandError(f"'controller' ended; it said:\n{processes.last_words('controller')}")
+        if stock.ended():
+            raise CommandError(f"'controller' ended; it said:\n{stock.last_words('controller')}")
 
     try:
         yield check
     finally:
-        processes.stop()
+        stock.stop()
 
 
 def _compare(recorded, replayed, coils, picture, title):

@@ -1,40 +1,29 @@
-"""One run of the closed loop from the command line: processes, progress, bag, summary, picture."""
+"""One run of the closed loop from the command line: processes, progress, and what the bag then tells."""
 
-import json
 import os
 import re
 import signal
 import socket
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from datetime import datetime
 from math import isfinite
 from pathlib import Path
 
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-from rich.table import Table
 
-from ..analysis.analyse import analyse
-from ..analysis.completeness import missing
-from ..analysis.numbers import AXES, SENSORS
-from ..analysis.picture_data import prepare
-from ..analysis.plots import run_picture
 from ..analysis.segments import SHORTEST_MEASURING
 from ..analysis.settling import SHORTEST_SETTLING, VEHICLE_BEHIND, settling_time
-from ..analysis.summary import summarise
 from ..bags.errors import BagError
-from ..bags.reading import read_recording
 from ..console import Description, Terminal
 from ..data import find_vehicle
 from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses, closed_loop_parameters
-from ..nodes.watch import Watch
 from ..road_sources.road_file import RoadError, find_road, road_in_words, whole_name
 from ..vehicle.drive.drive_file import DriveFileError, drive_text, parse_drive
 from ..vehicle.drive.schedule import arrival_time
-from ..vehicle.mount_energy import MountEnergy
 from ..vehicle.step_size import recommended_rate
 from ..vehicle.vehicle_file import VehicleFileError, read_vehicle
-from .result_folder import CommandError, make_folder, whole_or_none, writing_to
+from .result_folder import CommandError, make_folder, writing_to
 
 HIGHEST_DOMAIN = 232  # of ROS 2; beyond it DDS has no ports
 _LOOK = 0.2  # s between looks at processes and progress
@@ -88,7 +77,8 @@ def run_loop(choices, out):
             f"--duration is {choices.duration:g} s, must be at least {settling + SHORTEST_MEASURING:.1f} s {how}: "
             f"{settling:.1f} s to settle and {SHORTEST_MEASURING:g} s to measure"
         )
-    with own_domain():
+    executables = ONE_PROCESS if choices.one_process else FOUR_PROCESSES
+    with LoopProcesses(executables) as processes, own_domain():
         name = f"{datetime.now():%Y%m%dT%H%M%S}_{_short(choices.road)}_{_pace(choices)}"
         folder = make_folder(out or Path("runs") / name)
         with writing_to(folder):
@@ -97,9 +87,11 @@ def run_loop(choices, out):
         recommended = recommended_rate(vehicle)
         if choices.physics_rate < recommended:
             console.print(f"warning: --physics-rate {choices.physics_rate} is below the recommended {recommended} Hz")
-        interrupt = _run_nodes(choices, path, tread, folder, console)
+        interrupt = _run_nodes(processes, choices, path, tread, folder, console)
+    from .run_summary import evaluate  # loaded by `_follow`
+
     try:
-        lacking = _evaluate(choices, settling, folder, console)
+        lacking = evaluate(choices, settling, folder, console)
     except (BagError, ValueError) as error:
         raise interrupt or CommandError(str(error)) from None
     if lacking:
@@ -121,6 +113,8 @@ def _settling(choices, begins):
 @contextmanager
 def own_domain():
     """Hold the ROS domain against further runs; raise `CommandError` if it is impossible or taken."""
+    from ..nodes.watch import Watch  # imported late: ROS 2 comes after the processes have been made
+
     domain = os.environ.get("ROS_DOMAIN_ID") or "0"
     if not (domain.isdecimal() and int(domain) <= HIGHEST_DOMAIN):
         raise CommandError(f"ROS_DOMAIN_ID is {domain!r}, accepted is a whole number from 0 to {HIGHEST_DOMAIN}")
@@ -138,7 +132,7 @@ def own_domain():
         yield
 
 
-def _run_nodes(choices, vehicle, tread, folder, console):
+def _run_nodes(processes, choices, vehicle, tread, folder, console):
     """Run the nodes to the end; returns the KeyboardInterrupt that cut them short, or None.
 
     `vehicle` is the path of its file, `tread` the distance between its tracks [m].
@@ -156,10 +150,9 @@ def _run_nodes(choices, vehicle, tread, folder, console):
             "duration": float(choices.duration),
         },
     }
-    executables = ONE_PROCESS if choices.one_process else FOUR_PROCESSES
-    processes = LoopProcesses(executables, closed_loop_parameters(), overrides, folder / "log")
     interrupted = None
     try:
+        processes.start(closed_loop_parameters(), overrides, folder / "log")
         _follow(processes, choices.duration, console)
     except KeyboardInterrupt as interrupt:
         interrupted = interrupt
@@ -184,6 +177,8 @@ def _ending(name, code, folder):
 
 def _follow(processes, duration, console):
     """Show progress until a process has ended."""
+    from ..nodes.watch import Watch  # imported late, as above
+
     columns = (
         Description(),
         BarColumn(),
@@ -192,6 +187,8 @@ def _follow(processes, duration, console):
     )
     with Watch() as watch, Progress(*columns, console=console) as progress:
         task = progress.add_task("starting", total=duration, pace="-")
+        from . import run_summary  # noqa: F401  what measures the run is loaded while its nodes start
+
         while not processes.ended():
             values = watch.look(_LOOK)
             if values:
@@ -203,22 +200,6 @@ def _follow(processes, duration, console):
                 )
 
 
-def _evaluate(choices, settling, folder, console):
-    """Leave summary and picture of a run that settles so long [s]; returns in words what the bag lacks."""
-    # of a run that was reset the last epoch; its bag has the highest number
-    bag = max(folder.glob("bag*"), key=lambda path: (len(path.name), path.name), default=folder / "bag")
-    recording = read_recording(bag)
-    summary = {"run": asdict(choices), **summarise(analyse(recording, settling))}
-    files = [folder / name for name in ("summary.json", "run.png", "summary.txt")]
-    with whole_or_none(*files) as (numbers, picture, text):
-        numbers.write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
-        run_picture(prepare(recording, settling), choices.title, picture)
-        with text.open("w", encoding="utf-8") as file:
-            _print_summary(Terminal(file=file, width=100), summary, folder)
-    _print_summary(console, summary, folder)
-    return missing(recording)
-
-
 def _short(path):
     """Road or drive as a part of a file's name."""
     return re.sub(r"[^A-Za-z0-9-]+", "-", Path(path).stem)[:40] or "file"
@@ -226,36 +207,3 @@ def _short(path):
 
 def _pace(choices):
     return f"{choices.speed:g}" if choices.drive is None else _short(choices.drive)
-
-
-def _print_summary(console, summary, folder):
-    low, high = summary["band_hz"]
-    title = f"RMS acceleration, {low:g}-{high:g} Hz, after {summary['settled_after_s']:.1f} s"
-    table = Table(title=title, title_justify="left")
-    table.add_column("m/s²")
-    for name in ("longitudinal x", "lateral y", "vertical z"):
-        table.add_column(name, justify="right")
-    for sensor in SENSORS:
-        table.add_row(sensor, *(f"{summary['rms_mps2'][sensor][axis]:.3f}" for axis in AXES))
-    console.print(table)
-    loop, mounts = summary["loop"], MountEnergy(**summary["mounts_J"])
-    unanswered = loop["samples"] if loop["unanswered"] is None else loop["unanswered"]  # None: not one answer came
-    for line in (
-        *_drive(summary["drive_N"], summary["drive_W"]),
-        f"mounts: {mounts.work:.1f} J of work = {mounts.dissipated:.1f} dissipated {mounts.stored:+.1f} stored "
-        f"{mounts.exchanged:+.1f} lost to the field by switching; left over {100.0 * mounts.error:.3f} %",
-        f"loop: {loop['samples']} samples; lost {loop['lost_chassis']} chassis, {loop['lost_powertrain']} powertrain; "
-        f"unanswered {unanswered}; late {loop['late']}; rejected "
-        f"{int(loop['early']) + int(loop['duplicate']) + int(loop['not_finite'])}; saturated {loop['saturated']}",
-        f"pace: {float(loop['real_time_factor']):.2f} x real time; of each period physics "
-        f"{loop['physics_us_per_period']} us, publishing {loop['publishing_us_per_period']} us, waiting for the answer "
-        f"{loop['answer_us_per_period']} us, for road or recorder {loop['holding_us_per_period']} us",
-        f"left in {folder}: bag/, summary.json, summary.txt, run.png, log/",
-    ):
-        console.print(line, soft_wrap=True)
-
-
-def _drive(force, power):
-    """A line on the running resistance, none where the vehicle stands."""
-    words = "at the sprockets, mean of the run"
-    return [] if force is None else [f"drive: {force / 1e3:.1f} kN, {power / 1e3:.1f} kW {words}"]

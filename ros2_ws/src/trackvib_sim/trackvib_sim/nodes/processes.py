@@ -1,24 +1,18 @@
 """The processes of a closed loop: started together, watched, ended in order."""
 
-import ctypes
 import json
-import signal
-import subprocess
-import time
 from pathlib import Path
 
-from ament_index_python.packages import get_package_prefix, get_package_share_directory
+from ament_index_python.packages import get_package_share_directory
 
-# Packages of the executables, in the order in which they start.
-FOUR_PROCESSES = {
-    "road_excitation": "trackvib_sim",
-    "controller": "mr_mount_controller",
-    "recorder": "trackvib_sim",
-    "simulator": "trackvib_sim",
-}
-ONE_PROCESS = {"recorder": "trackvib_sim", "one_process": "trackvib_sim"}  # a recorder that is slow must not hold it
+from ..simulation import closed_loop  # noqa: F401  the nodes have it from here
+from .forked_node import ForkedNode
+
+# Executables, in the order in which they start.
+FOUR_PROCESSES = ("road_excitation", "controller", "recorder", "simulator")
+ONE_PROCESS = ("recorder", "one_process")  # a recorder that is slow must not hold it
+_LAST_FIRST = ("simulator", "one_process", "controller", "road_excitation", "recorder")
 _GRACE = 10.0  # s for a process to end by itself
-_PR_SET_PDEATHSIG = 1  # Linux: signal to a child whose parent has died
 
 
 def closed_loop_parameters():
@@ -27,14 +21,25 @@ def closed_loop_parameters():
 
 
 class LoopProcesses:
-    """Starts the nodes with one parameter file and their own overrides.
+    """Runs nodes with one parameter file and their own overrides.
 
-    Each has its own session, so that Ctrl-C reaches only whoever started them, who then ends them in order; should
-    that process die, the kernel ends them.
+    Use it as a context manager around all that loads ROS 2 here: its processes are made at once (`ForkedNode`), and
+    have ended when it is left.
     """
 
-    def __init__(self, executables, parameter_file, overrides, log_folder):
-        """Start `FOUR_PROCESSES` or `ONE_PROCESS`.
+    def __init__(self, executables):
+        """Make processes for `FOUR_PROCESSES`, `ONE_PROCESS` or other executables."""
+        self._nodes = {name: ForkedNode(name) for name in executables}
+        self._log_folder = None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.stop()
+
+    def start(self, parameter_file, overrides, log_folder):
+        """Start the nodes.
 
         `overrides` maps names of nodes to parameters, `log_folder` takes what each process prints.
         """
@@ -43,50 +48,24 @@ class LoopProcesses:
             for parameter, value in parameters.items():
                 given += ["-p", f"{node}:{parameter}:={json.dumps(value)}"]  # JSON is YAML, and quotes what needs it
         self._log_folder = Path(log_folder)
-        self._processes = {}
-        for name, package in executables.items():
-            executable = Path(get_package_prefix(package)) / "lib" / package / name
-            command = [str(executable), "--ros-args", "--params-file", str(parameter_file), *given]
-            with (self._log_folder / f"{name}.log").open("wb") as log:
-                self._processes[name] = subprocess.Popen(
-                    command,
-                    stdin=subprocess.DEVNULL,
-                    stdout=log,
-                    stderr=subprocess.STDOUT,
-                    start_new_session=True,
-                    preexec_fn=end_with_parent,
-                )
+        for name, node in self._nodes.items():
+            node.begin(["--ros-args", "--params-file", str(parameter_file), *given], self._log(name))
 
     def ended(self):
         """Return the exit codes of the processes that have ended, by name."""
-        return {name: code for name, process in self._processes.items() if (code := process.poll()) is not None}
+        return {name: node.exit_code for name, node in self._nodes.items() if node.exit_code is not None}
 
     def stop(self):
-        """End what still runs: the simulator first, the recorder last, so that it gets all there is."""
-        order = ("simulator", "one_process", "controller", "road_excitation", "recorder")
-        for name in sorted(self._processes, key=order.index):
-            process = self._processes[name]
-            if process.poll() is None:
-                process.send_signal(signal.SIGINT)
-                if not _wait(process, _GRACE):
-                    process.kill()
-                    process.wait()
+        """End what still runs, the recorder last, so that it gets all there is; returns all exit codes."""
+        for name in sorted(self._nodes, key=_LAST_FIRST.index):
+            self._nodes[name].end(_GRACE)
         return self.ended()
 
     def last_words(self, name, lines=8):
         """Return the last lines that a process printed; none if their folder is gone."""
-        log = self._log_folder / f"{name}.log"
+        log = self._log(name)
         text = log.read_text(errors="replace") if log.exists() else ""
         return "\n".join(text.strip().splitlines()[-lines:])
 
-
-def _wait(process, seconds):
-    end = time.monotonic() + seconds
-    while process.poll() is None and time.monotonic() < end:
-        time.sleep(0.02)
-    return process.poll() is not None
-
-
-def end_with_parent():
-    """In a new process: let the kernel end it should its parent die."""
-    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+    def _log(self, name):
+        return (self._log_folder / f"{name}.log").absolute()

@@ -1,0 +1,106 @@
+"""A node in a process forked from this one: libraries, which take longest, are loaded once for all nodes."""
+
+import ctypes
+import importlib
+import multiprocessing
+import os
+import signal
+import sys
+
+# Executables by name, and the modules whose `main` each runs.
+MODULES = {
+    "controller": "mr_mount_controller.node",
+    "one_process": "trackvib_sim.nodes.one_process",
+    "player": "trackvib_sim.nodes.player",
+    "recorder": "trackvib_sim.nodes.recorder",
+    "road_excitation": "trackvib_sim.nodes.road_excitation",
+    "simulator": "trackvib_sim.nodes.simulator",
+}
+_FORK = multiprocessing.get_context("fork")
+_PR_SET_PDEATHSIG, _PR_SET_NAME = 1, 15  # Linux: signal to a child whose parent has died; name of the process
+
+
+class ForkedNode:
+    """A process that waits for its arguments and is a node from then on.
+
+    It has its own session, so that Ctrl-C reaches only whoever started it; should that process die, the kernel ends it.
+
+    Raises
+    ------
+    RuntimeError
+        ROS 2 is loaded here already: libraries of it start threads, which do not come along, and end them later.
+    """
+
+    def __init__(self, name):
+        if "rclpy" in sys.modules:
+            raise RuntimeError(f"node {name!r} must be forked before ROS 2 is loaded")
+        here, there = _FORK.Pipe()
+        self._arguments = here
+        self._process = _FORK.Process(target=_wait_and_run, args=(name, there), daemon=True)
+        self._process.start()
+        there.close()
+
+    def begin(self, words, log):
+        """Let it run with arguments; what it prints goes to a file."""
+        self._arguments.send((words, log))
+
+    @property
+    def exit_code(self):
+        """None while it runs; a signal that ended it as its negative number."""
+        return self._process.exitcode
+
+    def end(self, grace):
+        """Ask it to end in order; after so many seconds end it."""
+        if self._process.is_alive():
+            os.kill(self._process.pid, signal.SIGINT)
+            self._process.join(grace)
+            self._process.kill()
+        self._process.join()
+
+
+def _wait_and_run(name, arguments):
+    begin_program(name)
+    words, log = arguments.recv()
+    run_program(lambda: importlib.import_module(MODULES[name]).main(), [name, *words], log)
+
+
+def begin_program(name):
+    """In a forked process: have a session of its own, the signals of a new process, and a name among processes."""
+    os.setsid()
+    end_with_parent()
+    ctypes.CDLL(None).prctl(_PR_SET_NAME, name.encode())
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
+def run_program(main, words, log):
+    """In a forked process: run a program to the end of the process; never returns.
+
+    Parameters
+    ----------
+    main : callable
+        Of the program; ends by its exit code, or by SystemExit.
+    words : list of str
+        Its name and arguments.
+    log : path
+        Takes what it prints.
+    """
+    for path, flags, numbers in ((os.devnull, os.O_RDONLY, (0,)), (log, os.O_WRONLY | os.O_CREAT, (1, 2))):
+        file = os.open(path, flags, 0o666)
+        for number in numbers:
+            os.dup2(file, number)
+        os.close(file)
+    for stream in (sys.stdout, sys.stderr):
+        stream.reconfigure(write_through=True)
+    sys.argv = words
+    try:
+        code = main()
+    except SystemExit as end:
+        code = end.code
+    # as Python itself ends: multiprocessing would leave out what libraries do at the end
+    ctypes.pythonapi.Py_Exit(code or 0)
+
+
+def end_with_parent():
+    """In a new process: let the kernel end it should its parent die."""
+    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
