@@ -3,20 +3,26 @@
 import signal
 import sys
 from contextlib import contextmanager
+from importlib import import_module
 
 import click
-from mr_mount_controller.laws import known_laws
 from mr_mount_controller.node_base.plain_text import plain_line
 
-from .commands.analyze_cli import analyze
-from .commands.bag_cli import bag
-from .commands.endings import fail, say
+from .commands.endings import INTERRUPTED, fail, say
 from .commands.lasting_output import OutputLost, lasting_output
-from .commands.mount_cli import mount
-from .commands.option_types import INTERRUPTED, FiniteRange, known_law, vehicle_option
-from .commands.replay_cli import replay
-from .commands.road_cli import road
-from .commands.study_cli import study
+
+# Where each verb's command line lies; it is imported when the verb is asked for, so that no verb waits for another's.
+_VERBS = {
+    "analyze": "analyze_cli",
+    "bag": "bag_cli",
+    "modes": "vehicle_cli",
+    "mount": "mount_cli",
+    "replay": "replay_cli",
+    "road": "road_cli",
+    "run": "run_cli",
+    "study": "study_cli",
+    "vehicle": "vehicle_cli",
+}
 
 
 class _Verbs(click.Group):
@@ -24,6 +30,14 @@ class _Verbs(click.Group):
 
     So does standard output that breaks off, once the verb's work is done.
     """
+
+    def list_commands(self, context):
+        return sorted(_VERBS)
+
+    def get_command(self, context, name):
+        if name in _VERBS:
+            return getattr(import_module(f".commands.{_VERBS[name]}", __package__), name)
+        return None
 
     def make_context(self, *arguments, **extra):
         with _plain_errors():
@@ -62,125 +76,6 @@ def main():
 def _interrupt():
     raise KeyboardInterrupt
 
-
-@main.command()
-@vehicle_option
-@click.option(
-    "--road",
-    default="E",
-    show_default=True,
-    metavar="CLASS|FILE",
-    help="Class by ISO 8608, A to H, or a file: profile (CSV), OpenCRG, road file (YAML), or a bag.",
-)
-@click.option(
-    "--speed",
-    type=FiniteRange(-25.0, 25.0),
-    default=10.0,
-    show_default=True,
-    help="Speed in m/s; below 0 backwards.",
-)
-@click.option(
-    "--drive",
-    type=click.Path(exists=True, dir_okay=False),
-    default=None,
-    help="Drive file: speed, path and engine speed over time or distance, in place of --speed.",
-)
-@click.option("--gears", is_flag=True, help="Engine speed follows the vehicle's, through the vehicle file's gears.")
-@click.option("--duration", type=FiniteRange(0.1, 3600.0), default=10.0, show_default=True, help="Simulated time in s.")
-@click.option(
-    "--law",
-    default="passive",
-    show_default=True,
-    callback=known_law,
-    help=f"Control law: {', '.join(known_laws())}, or package.module:Class.",
-)
-@click.option("--seed", type=click.IntRange(0, 10**9), default=1, show_default=True, help="Seed of the road.")
-@click.option(
-    "--physics-rate",
-    type=click.IntRange(1000, 200_000),
-    default=10_000,
-    show_default=True,
-    help="Rate of the physics steps in Hz; `trackvib vehicle` tells the one that a vehicle needs.",
-)
-@click.option(
-    "--one-process", is_flag=True, help="Simulator, road and controller in one process: the same results, sooner."
-)
-@click.option(
-    "--out",
-    type=click.Path(file_okay=False),
-    default=None,
-    help="Folder to make for the run.  [default: runs/<time>_<road>_<speed>]",
-)
-def run(out, **choices):
-    """Run the closed loop as four ROS 2 nodes; leaves a bag, a summary and a picture."""
-    from .commands.result_folder import CommandError
-    from .commands.run import Choices, run_loop  # imported late: --help need not wait for it
-
-    try:
-        run_loop(Choices(**choices), out)
-    except CommandError as error:
-        fail(error)
-
-
-@main.command()
-@vehicle_option
-@click.option(
-    "--current", type=FiniteRange(0.0, 10.0), default=1.0, show_default=True, help="Current of all coils in A."
-)
-@click.option(
-    "--highest",
-    type=FiniteRange(0.1, 1000.0),
-    default=100.0,
-    show_default=True,
-    help="Highest frequency of the table in Hz.",
-)
-@click.option(
-    "--out",
-    type=click.Path(dir_okay=False),
-    default="modes.png",
-    show_default=True,
-    help="Picture of the lowest oscillations.",
-)
-def modes(vehicle, current, highest, out):
-    """Print the standing vehicle's natural frequencies and damping, and draw its modes."""
-    from .commands.modes import run_modes
-    from .commands.result_folder import CommandError  # imported late, as above
-
-    try:
-        run_modes(vehicle, current, highest, out)
-    except (CommandError, ValueError, OSError) as error:
-        fail(error)
-
-
-@main.command()
-@vehicle_option
-@click.option(
-    "--out", type=click.Path(dir_okay=False), default="vehicle.png", show_default=True, help="Drawing of the vehicle."
-)
-@click.option("--list", "listing", is_flag=True, help="Only list the vehicles that come with the package.")
-@click.option("--schema", is_flag=True, help="Only print the JSON Schema of vehicle files, for editors.")
-def vehicle(vehicle, out, listing, schema):
-    """Print a vehicle's parameters with their sources and what follows from them, and draw it to scale."""
-    from .commands.result_folder import CommandError  # imported late, as above
-    from .commands.vehicle import list_vehicles, print_schema, run_vehicle
-
-    try:
-        if listing:
-            list_vehicles()
-        elif schema:
-            print_schema()
-        else:
-            run_vehicle(vehicle, out)
-    except (CommandError, ValueError, OSError) as error:
-        fail(error)
-
-
-main.add_command(analyze)
-main.add_command(bag)
-main.add_command(mount)
-main.add_command(replay)
-main.add_command(study)
-main.add_command(road)
 
 if __name__ == "__main__":
     main(prog_name="trackvib")

@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy import signal
-from trackvib_sim.road.iso8608 import CLASSES, SPACING, Exponential, Iso8608Road, Isotropic, roughness_of
+from trackvib_sim.road.classes import CLASSES
+from trackvib_sim.road.iso8608 import SPACING, Exponential, Iso8608Road, Isotropic, roughness_of
 
 LENGTH = 20_000  # samples, 1 km
 SEEDS = range(5)

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from trackvib_sim.road.iso8608 import CLASSES, Iso8608Road, Roughness
+from trackvib_sim.road.classes import CLASSES
+from trackvib_sim.road.iso8608 import Iso8608Road, Roughness
 from trackvib_sim.road_sources.measures import measures, psd, roughness_index
 
 SPACING = 0.05

@@ -5,8 +5,8 @@ from contextlib import contextmanager
 
 import click
 
-from .endings import fail, say
-from .option_types import INTERRUPTED, largest_chunk_option
+from .endings import INTERRUPTED, fail, say
+from .option_types import largest_chunk_option
 
 
 @click.group()

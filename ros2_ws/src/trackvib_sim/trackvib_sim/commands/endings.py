@@ -4,6 +4,8 @@ import sys
 
 from mr_mount_controller.node_base.plain_text import plain_line
 
+INTERRUPTED = 130  # exit code of what Ctrl-C has ended, as shells give it
+
 
 def fail(error, code=1, word="error"):
     """Print an error, a line for each of its lines, and end the process with an exit code."""

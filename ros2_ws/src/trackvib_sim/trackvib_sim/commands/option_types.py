@@ -1,15 +1,11 @@
-"""What the verbs' command lines share: types of options, exit codes."""
+"""What the verbs' command lines share: types of options, and options."""
 
 from math import isfinite
 
 import click
-from mr_mount_controller.laws import find_law
-from mr_mount_controller.node_base.parameters import ParameterError
 
 from ..bags.limits import LARGEST_CHUNKS, largest_chunk
 from ..data import DEFAULT_VEHICLE
-
-INTERRUPTED = 130  # exit code of what Ctrl-C has ended, as shells give it
 
 
 class FiniteRange(click.FloatRange):
@@ -60,9 +56,29 @@ vehicle_option = click.option(
 
 def known_law(_context, _parameter, value):
     """Callback of an option that names a control law: refuse one that cannot be loaded."""
+    from mr_mount_controller.laws import ParameterError, find_law  # imported late: --help need not wait for it
+
     if value is not None:
         try:
             find_law(value)
         except ParameterError as error:
             raise click.BadParameter(str(error)) from None
     return value
+
+
+class _LawOption(click.Option):
+    """An option whose help names the laws that installed packages offer, when it is asked for."""
+
+    def get_help_record(self, ctx):
+        from mr_mount_controller.laws import known_laws  # imported late, as above
+
+        plain, self.help = self.help, f"{self.help}: {', '.join(known_laws())}, or package.module:Class."
+        try:
+            return super().get_help_record(ctx)
+        finally:
+            self.help = plain
+
+
+def law_option(name, **settings):
+    """The option `name` for a control law, with further settings of `click.option`."""
+    return click.option(name, cls=_LawOption, callback=known_law, **settings)

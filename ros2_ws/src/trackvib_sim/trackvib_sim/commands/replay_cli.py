@@ -5,11 +5,9 @@ from datetime import datetime
 from pathlib import Path
 
 import click
-from mr_mount_controller.laws import known_laws
-from mr_mount_controller.laws.base import LawError
 
 from .endings import fail
-from .option_types import known_law, largest_chunk_option
+from .option_types import known_law, largest_chunk_option, law_option
 
 EXTERNAL = "external"
 CANNOT_VERIFY = 2
@@ -28,14 +26,7 @@ def _law_or_external(context, parameter, value):
     help="Drive the simulator on the recorded road and currents; its sensors must come out bit-identical. "
     "Exit code 0: they do, 1: they do not, 2: the bag does not tell enough.",
 )
-@click.option(
-    "--law",
-    default=None,
-    callback=known_law,
-    metavar="LAW",
-    help=f"Drive again on the recorded road under another control law: {', '.join(known_laws())}, or "
-    "package.module:Class.",
-)
+@law_option("--law", default=None, metavar="LAW", help="Drive again on the recorded road under another control law")
 @click.option(
     "--controller",
     default=None,
@@ -56,7 +47,9 @@ def replay(bag, verify, law, controller, out):
         raise click.UsageError("exactly one of --verify, --law and --controller is needed")
     if verify and out is not None:
         raise click.UsageError("--verify leaves nothing, so --out does not go with it")
-    from ..bags.errors import BagError  # imported late: --help need not wait for it
+    from mr_mount_controller.laws import LawError  # imported late: --help need not wait for it
+
+    from ..bags.errors import BagError
     from ..console import Terminal
     from .result_folder import CommandError
 

@@ -5,9 +5,9 @@ from contextlib import contextmanager
 
 import click
 
-from ..road.iso8608 import CLASSES
-from .endings import fail, say
-from .option_types import INTERRUPTED, FiniteRange, Several, vehicle_option
+from ..road.classes import CLASSES
+from .endings import INTERRUPTED, fail, say
+from .option_types import FiniteRange, Several, vehicle_option
 
 SCENARIOS = ("e10", "c20", "run_up", "bump")  # those of studies.controllers, which takes long to import
 

@@ -10,8 +10,9 @@ from mr_mount_controller.node_base.qos import LATCHED_QOS, ROAD_QOS
 from mr_mount_controller.node_base.topics import DRIVE_STATE, ROAD_FRAME, ROAD_PROFILE
 from trackvib_msgs.msg import DriveState, RoadProfile
 
+from ..road.classes import CLASSES
 from ..road.feeder import RoadFeeder
-from ..road.iso8608 import CLASSES, FADE, LEVEL_UNTIL, TREAD, Exponential, Iso8608Road, Isotropic
+from ..road.iso8608 import FADE, LEVEL_UNTIL, TREAD, Exponential, Iso8608Road, Isotropic
 from ..road_sources.road_file import RoadError, find_road
 
 PARAMETERS = (

@@ -20,8 +20,8 @@ import numpy as np
 from scipy.special import k1
 
 from ..numerics.compiled import kernel
+from .classes import CLASSES
 
-CLASSES = tuple("ABCDEFGH")
 REFERENCE_FREQUENCY = 0.1  # 1/m
 LOWEST, HIGHEST = 0.011, 2.83  # 1/m, the standard's range
 HARMONICS = 1000

@@ -6,7 +6,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy import signal
 
-from ..road.iso8608 import CLASSES, REFERENCE_FREQUENCY, roughness_of
+from ..road.classes import CLASSES
+from ..road.iso8608 import REFERENCE_FREQUENCY, roughness_of
 
 # the golden car of [Sayers1995], over its sprung mass: tyre, suspension and damper, and the unsprung mass
 # [Sayers1995] M. W. Sayers, On the calculation of international roughness index from longitudinal road profile,

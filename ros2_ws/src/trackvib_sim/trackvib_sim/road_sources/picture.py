@@ -8,7 +8,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from mr_mount_controller.node_base.plain_text import plain_line  # noqa: E402
 
-from ..road.iso8608 import CLASSES, roughness_of  # noqa: E402
+from ..road.classes import CLASSES  # noqa: E402
+from ..road.iso8608 import roughness_of  # noqa: E402
 from .measures import FITTED, psd, smoothed  # noqa: E402
 
 COLOURS = {"left": "#1f5fa8", "right": "#d1662b"}

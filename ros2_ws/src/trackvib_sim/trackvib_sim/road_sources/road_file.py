@@ -19,8 +19,8 @@ from typing import Annotated, Literal
 from mr_mount_controller.node_base.plain_text import readable, shortened
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, model_validator
 
+from ..road.classes import CLASSES
 from ..road.iso8608 import (
-    CLASSES,
     FADE,
     HIGHEST,
     LEVEL_UNTIL,

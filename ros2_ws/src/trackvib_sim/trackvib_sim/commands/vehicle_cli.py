@@ -1,0 +1,59 @@
+"""The command line's looks at a vehicle: `trackvib vehicle` and `trackvib modes`."""
+
+import click
+
+from .endings import fail
+from .option_types import FiniteRange, vehicle_option
+
+
+@click.command()
+@vehicle_option
+@click.option(
+    "--current", type=FiniteRange(0.0, 10.0), default=1.0, show_default=True, help="Current of all coils in A."
+)
+@click.option(
+    "--highest",
+    type=FiniteRange(0.1, 1000.0),
+    default=100.0,
+    show_default=True,
+    help="Highest frequency of the table in Hz.",
+)
+@click.option(
+    "--out",
+    type=click.Path(dir_okay=False),
+    default="modes.png",
+    show_default=True,
+    help="Picture of the lowest oscillations.",
+)
+def modes(vehicle, current, highest, out):
+    """Print the standing vehicle's natural frequencies and damping, and draw its modes."""
+    from .commands.modes import run_modes
+    from .commands.result_folder import CommandError  # imported late, as above
+
+    try:
+        run_modes(vehicle, current, highest, out)
+    except (CommandError, ValueError, OSError) as error:
+        fail(error)
+
+
+@click.command()
+@vehicle_option
+@click.option(
+    "--out", type=click.Path(dir_okay=False), default="vehicle.png", show_default=True, help="Drawing of the vehicle."
+)
+@click.option("--list", "listing", is_flag=True, help="Only list the vehicles that come with the package.")
+@click.option("--schema", is_flag=True, help="Only print the JSON Schema of vehicle files, for editors.")
+def vehicle(vehicle, out, listing, schema):
+    """Print a vehicle's parameters with their sources and what follows from them, and draw it to scale."""
+    from .commands.result_folder import CommandError  # imported late, as above
+    from .commands.vehicle import list_vehicles, print_schema, run_vehicle
+
+    try:
+        if listing:
+            list_vehicles()
+        elif schema:
+            print_schema()
+        else:
+            run_vehicle(vehicle, out)
+    except (CommandError, ValueError, OSError) as error:
+        fail(error)

@@ -1,0 +1,3 @@
+"""The classes of roads of ISO 8608."""
+
+CLASSES = tuple("ABCDEFGH")  # from smooth to rough
