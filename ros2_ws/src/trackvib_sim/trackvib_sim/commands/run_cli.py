@@ -50,8 +50,8 @@ from .option_types import FiniteRange, law_option, vehicle_option
 )
 def run(out, **choices):
     """Run the closed loop as four ROS 2 nodes; leaves a bag, a summary and a picture."""
-    from .commands.result_folder import CommandError
-    from .commands.run import Choices, run_loop  # imported late: --help need not wait for it
+    from .result_folder import CommandError
+    from .run import Choices, run_loop  # imported late: --help need not wait for it
 
     try:
         run_loop(Choices(**choices), out)

@@ -27,8 +27,8 @@ from .option_types import FiniteRange, vehicle_option
 )
 def modes(vehicle, current, highest, out):
     """Print the standing vehicle's natural frequencies and damping, and draw its modes."""
-    from .commands.modes import run_modes
-    from .commands.result_folder import CommandError  # imported late, as above
+    from .modes import run_modes
+    from .result_folder import CommandError  # imported late, as above
 
     try:
         run_modes(vehicle, current, highest, out)
@@ -45,8 +45,8 @@ def modes(vehicle, current, highest, out):
 @click.option("--schema", is_flag=True, help="Only print the JSON Schema of vehicle files, for editors.")
 def vehicle(vehicle, out, listing, schema):
     """Print a vehicle's parameters with their sources and what follows from them, and draw it to scale."""
-    from .commands.result_folder import CommandError  # imported late, as above
-    from .commands.vehicle import list_vehicles, print_schema, run_vehicle
+    from .result_folder import CommandError  # imported late, as above
+    from .vehicle import list_vehicles, print_schema, run_vehicle
 
     try:
         if listing:
