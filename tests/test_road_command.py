@@ -40,7 +40,7 @@ def test_a_road_is_told_drawn_and_written(tmp_path):
         (["C", "--csv", "road.png"], "name a file twice"),
         (["C", "--csv", "C"], "name a file twice"),
         (["Q"], "accepted are a class (A, B, C, D, E, F, G, H)"),
-        (["C", "--length", "1e5", "--out", "/proc/none/x.png"], "/proc/none"),
+        (["C", "--length", "100", "--out", "/proc/none/x.png"], "/proc/none"),
     ],
 )
 def test_bad_roads_end_in_one_line(tmp_path, arguments, words):
