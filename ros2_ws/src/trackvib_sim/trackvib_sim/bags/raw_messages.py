@@ -1,5 +1,6 @@
 """Messages of a bag as bytes, one by one, in the order in which they were recorded."""
 
+from dataclasses import replace
 from typing import NamedTuple
 
 from mcap.records import Channel, Message, Schema
@@ -10,6 +11,8 @@ from .files import bag_files
 from .limits import TooLarge
 from .mcap_records import DAMAGE
 from .mcap_walk import Walk
+from .opening import opened
+from .unfolding import unfold_message
 
 NO_SCHEMA = 0  # number with which MCAP marks a channel without a definition, of a JSON log for instance
 
@@ -34,7 +37,7 @@ class RawMessage(NamedTuple):
 def raw_records(path):
     """Yield a `RawMessage` for each message and each announcement of a bag, and mcap's records of everything else.
 
-    Little is held in memory. Chunks that are damaged are left out, and a bag that is cut short ends where it does.
+    Little is held in memory. Compressed messages are unfolded. Chunks that are damaged are left out, and a bag that is cut short ends where it does.
 
     Raises
     ------
@@ -43,10 +46,17 @@ def raw_records(path):
     """
     for file in bag_files(path):
         try:
-            with file.open("rb") as stream:
-                yield from walked_records(Walk(stream))
+            with opened(file) as stream:
+                yield from map(_unfolded, walked_records(Walk(stream)))
         except (OSError, TooLarge, *DAMAGE) as error:
             raise BagError(f"bag {str(path)!r} cannot be read: {error}") from None
+
+
+def _unfolded(record):
+    if not isinstance(record, RawMessage) or record.message is None:
+        return record
+    data = unfold_message(record.message.data)
+    return record if data is record.message.data else record._replace(message=replace(record.message, data=data))
 
 
 def walked_records(walk, schemas=(), channels=()):
