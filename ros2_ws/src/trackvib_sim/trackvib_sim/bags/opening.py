@@ -1,4 +1,4 @@
-"""Opens the files of a bag: MCAP, as it stands or compressed as a whole, and what is none is refused with the way out."""
+"""Opens the files of a bag: MCAP, as it stands or compressed as a whole; of other formats the way to it is said."""
 
 from contextlib import contextmanager
 from tempfile import TemporaryFile

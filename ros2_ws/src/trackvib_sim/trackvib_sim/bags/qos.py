@@ -50,14 +50,14 @@ def declared_qos(channel):
 
 
 def offers(channel):
-    """Return the `Offer`s that an MCAP channel declares, by any version of rosbag2; what is missing is ROS's default."""
-    entries = (entry for entry in declared_qos(channel) if isinstance(entry, dict))
+    """Return the `Offer`s that an MCAP channel declares, by any rosbag2; what is missing is as ROS does by default."""
     return [
         Offer(
             _word(entry.get("reliability"), _RELIABILITY, RELIABLE),
             _word(entry.get("durability"), _DURABILITY, VOLATILE),
         )
-        for entry in entries
+        for entry in declared_qos(channel)
+        if isinstance(entry, dict)
     ]
 
 

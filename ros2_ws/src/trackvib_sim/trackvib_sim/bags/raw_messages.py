@@ -37,7 +37,8 @@ class RawMessage(NamedTuple):
 def raw_records(path):
     """Yield a `RawMessage` for each message and each announcement of a bag, and mcap's records of everything else.
 
-    Little is held in memory. Compressed messages are unfolded. Chunks that are damaged are left out, and a bag that is cut short ends where it does.
+    Little is held in memory. Compressed messages are unfolded, chunks that are damaged are left out, and a bag that is
+    cut short ends where it does.
 
     Raises
     ------

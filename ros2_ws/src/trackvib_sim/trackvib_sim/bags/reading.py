@@ -196,8 +196,10 @@ class _Reading:
             found[_end_of(topic)].append(topic)
         missing = [end for end in _NEEDED if not found[end]]
         if missing and self._ros_1:
-            raise BagError(f"bag {str(path)!r} holds messages of ROS 1 on {', '.join(sorted(self._ros_1))}; "
-                           f"{how_to_convert('FILE.bag')}, where FILE.bag is the bag of ROS 1 that it was made of")  # fmt: skip
+            raise BagError(
+                f"bag {str(path)!r} holds messages of ROS 1 on {', '.join(sorted(self._ros_1))}; "
+                f"{how_to_convert('FILE.bag')}, where FILE.bag is the bag of ROS 1 from which it was made"
+            )
         if missing:
             raise BagError(f"bag {str(path)!r} holds no {_SENSOR.type_name} on {', '.join(missing)}")
         space = found[topics.CHASSIS_IMU][0].removesuffix(topics.CHASSIS_IMU)
