@@ -66,22 +66,22 @@ class OpenBag:
         There is no such bag, it holds no messages, it is damaged, or it cannot be read.
     """
 
-    def __init__(self, path, wanted=lambda topic: True):
-        """Read the whole bag, and keep the messages of topics that are `wanted`."""
-        self.connections, self._places, self._size, self._most, times = [], [], 0, 0, []
+    def __init__(self, path, wanted=lambda topic: True, whole=True):
+        """Read the bag, and keep the messages of topics that are `wanted`; one that is not `whole` as far as it goes."""
+        self.connections, self._places, self._size, self._most, self._times = [], [], 0, 0, []
         with ExitStack() as undo:
             self._file = undo.enter_context(TemporaryFile())
             try:
                 for file in bag_files(path):
-                    counted = _sound(file).statistics
-                    times += [counted.message_start_time, counted.message_end_time] if counted.message_count else []
+                    if whole:
+                        _require_sound(file)
                     self._most += most_unfolded(file.stat().st_size)
                     self._read(file, wanted)
             except (OSError, TooLarge, *DAMAGE) as error:
                 raise BagError(f"bag {str(path)!r} cannot be read: {error}") from None
-            if not times:
+            if not self._times:
                 raise BagError(f"bag {str(path)!r} holds no messages")
-            self.start, self.end = min(times), max(times)
+            self.start, self.end = min(self._times), max(self._times)
             if self.end > _LATEST:
                 raise BagError(f"bag {str(path)!r} ends at {self.end} ns, accepted is up to {_LATEST}")
             self._file.flush()
@@ -101,13 +101,22 @@ class OpenBag:
 
     def messages(self, connections, start=None, stop=None):
         """Yield connection, time [ns] and bytes of messages from `start` on and before `stop`, in order of time."""
-        places = self._places
-        begin, end = np.searchsorted(places["time"], (start or 0, _LATEST + 1 if stop is None else stop))
-        chosen = {connection.number for connection in connections}
-        for time, place, size, number in places[begin:end]:
-            if number in chosen:
-                self._file.seek(place)
-                yield self.connections[number], int(time), self._file.read(size)
+        places = self.places(connections)
+        begin, end = np.searchsorted(self._places["time"][places], (start or 0, _LATEST + 1 if stop is None else stop))
+        for place in places[begin:end].tolist():
+            found = self._places[place]
+            yield self.connections[found["connection"]], int(found["time"]), self.message(place)
+
+    def places(self, connections):
+        """Return the places (k,) of the messages of some connections, in order of time, for `message`."""
+        numbers = [connection.number for connection in connections]
+        return np.flatnonzero(np.isin(self._places["connection"], numbers))
+
+    def message(self, place):
+        """Return the bytes of a message."""
+        found = self._places[place]
+        self._file.seek(found["start"])
+        return self._file.read(found["size"])
 
     def _read(self, file, wanted):
         """Take in the messages of a file; ids of schemas and channels are its own."""
@@ -119,7 +128,10 @@ class OpenBag:
                         schemas[record.id] = record
                     elif isinstance(record, Channel):
                         numbers[record.id] = self._announced(record, schemas, wanted)
-                connection = numbers[part.messages.head["channel"]]
+                head = part.messages.head
+                if len(head):
+                    self._times += [int(head["log_time"].min()), int(head["log_time"].max())]
+                connection = numbers[head["channel"]]
                 kept = connection >= 0
                 if kept.any():
                     self._keep(part, kept, connection[kept])
@@ -154,12 +166,11 @@ class OpenBag:
         self._size += int(ends[-1])
 
 
-def _sound(file):
-    """Return the summary of a file that is whole; raises ValueError or TooLarge."""
+def _require_sound(file):
+    """Raise ValueError or TooLarge unless a file is whole."""
     try:
         findings = examine(file)
     except InvalidMagic:
         raise ValueError(f"{file.name!r} is no MCAP file") from None
     if findings.flaw:
         raise ValueError(f"{file.name!r} is {findings.flaw}; `trackvib bag repair` completes it")
-    return findings.summary

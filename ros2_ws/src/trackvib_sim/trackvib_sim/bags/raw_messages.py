@@ -4,7 +4,6 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from mcap.records import Channel, Message, Schema
-from mr_mount_controller.node_base.cdr import leading_stamp
 
 from .errors import BagError
 from .files import bag_files
@@ -88,21 +87,3 @@ def walked_records(walk, schemas=(), channels=()):
                 channels[number] = None, Channel(number, f"/unannounced_{number}", "", {}, NO_SCHEMA)
             data = part.data[begin : begin + length].tobytes()
             yield RawMessage(*channels[number], Message(number, logged, data, published, sequence))
-
-
-def sample_messages(path, chassis, powertrain):
-    """Yield stamp [ns] and both serialised Imu messages of each sample of which a bag holds both topics' message.
-
-    Raises as `raw_records` does.
-    """
-    waiting = {}  # messages without their partner by topic and stamp
-    partner = {chassis: powertrain, powertrain: chassis}
-    for record in raw_records(path):
-        if not isinstance(record, RawMessage) or record.message is None or record.topic not in partner:
-            continue
-        data, stamp = record.message.data, leading_stamp(record.message.data)
-        other = waiting.pop((partner[record.topic], stamp), None)
-        if other is None:
-            waiting[record.topic, stamp] = data
-        else:
-            yield stamp, *((data, other) if record.topic == chassis else (other, data))
