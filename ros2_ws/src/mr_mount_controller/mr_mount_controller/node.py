@@ -3,6 +3,7 @@
 import sys
 import time
 from array import array
+from statistics import mean
 from typing import NamedTuple
 
 from rclpy.duration import Duration
@@ -31,6 +32,7 @@ _PATIENCE = 10.0  # s of wall time for those who shall hear the answers
 _GREATEST = 1e6  # m/s^2 or rad/s; no sensor measures more
 _CLASH = 5  # wrong steps from the very first sample on are not gaps but another rate
 _MANY, _OFF = 100, 0.05  # so many steps tell a rate that is off by more than this part
+_RANGES = (0.5, 1.5), (0.0, 2.5)  # periods that a step takes without a lost sample, and with one; whole ms may look so
 
 
 class Reading(NamedTuple):
@@ -62,7 +64,7 @@ class ControllerNode(LoopNode):
         self._last = None  # stamp answered last, ns
         self._sample = None  # the sample answered last
         self._steps = self._gaps = 0  # between samples, and those among them that were not about one period
-        self._even = self._passed = 0  # those that were, and the time over the first of them, ns
+        self._first = []  # steps, ns
         self._answer = CoilCurrent()
         self._stamp = self._answer.header.stamp = self._answer.sample_stamp
         self._mounting = None  # not known yet
@@ -155,20 +157,26 @@ class ControllerNode(LoopNode):
     def _check_step(self, step):
         """Count a gap between samples; raise `NodeError` if they come at another rate altogether.
 
-        Stamps of a vehicle waver, so only the mean of many tells a rate that is not far off.
+        Stamps of a vehicle waver, so only many steps tell a rate that is not far off.
         """
         self._steps += 1
+        if len(self._first) < _MANY:
+            self._first.append(step)
+            if len(self._first) == _MANY:
+                self._judge_rate()
         if 2 * abs(step - self._period) < self._period:
-            self._even += 1
-            self._passed += step if self._even <= _MANY else 0
-            if self._even == _MANY and abs(self._passed / _MANY - self._period) > _OFF * self._period:
-                self._clash(self._passed / _MANY)
             return
         self._gaps += 1
         if self._gaps == self._steps == _CLASH:
             self._clash(step)
         if self._gaps == 1:
             self.get_logger().warning(f"samples {step / NANO} s apart, expected {self._period / NANO} s")
+
+    def _judge_rate(self):
+        """Raise `NodeError` if the first steps come at another rate, with what may be lost samples and without."""
+        even, near = ([step for step in self._first if low <= step / self._period <= high] for low, high in _RANGES)
+        if even and all(abs(mean(steps) / self._period - 1.0) > _OFF for steps in (even, near)):
+            self._clash(mean(even))
 
     def _clash(self, step):
         raise NodeError(
@@ -178,7 +186,8 @@ class ControllerNode(LoopNode):
 
     def _wait_for_listeners(self):
         self.get_logger().info("first sample received, answering")
-        self._steps = self._gaps = self._even = self._passed = 0
+        self._steps = self._gaps = 0
+        self._first = []
         wanted = 1 + self.settings["wait_for_recorder"]
         # no callbacks are served here: the sample at hand is the one to answer
         heard = self._currents.get_subscription_count

@@ -110,8 +110,9 @@ class LoopNode(Node):
                 limits = FloatingPointRange(from_value=parameter.low, to_value=parameter.high, step=0.0)
                 descriptor.floating_point_range = [limits]
         given = self._parameter_overrides.get(parameter.name)
-        if given is not None:  # ROS tells 5 and 5.0 apart, and takes the one not for the other
-            self._parameter_overrides[given.name] = RosParameter(given.name, value=parameter.converted(given.value))
+        if given is not None and (value := parameter.converted(given.value)) is not given.value:
+            # ROS tells 5 and 5.0 apart, and takes the one not for the other
+            self._parameter_overrides[given.name] = RosParameter(given.name, value=value)
         try:
             value = self.declare_parameter(parameter.name, parameter.default, descriptor).value
         except ParameterException:

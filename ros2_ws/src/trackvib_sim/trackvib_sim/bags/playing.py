@@ -67,7 +67,10 @@ class OpenBag:
     """
 
     def __init__(self, path, wanted=lambda topic: True, whole=True):
-        """Read the bag, and keep the messages of topics that are `wanted`; one that is not `whole` as far as it goes."""
+        """Read the bag and keep the messages of topics that are `wanted`.
+
+        One that is cut short is refused, or read as far as it goes if it need not be `whole`.
+        """
         self.connections, self._places, self._size, self._most, self._times = [], [], 0, 0, []
         with ExitStack() as undo:
             self._file = undo.enter_context(TemporaryFile())

@@ -100,12 +100,10 @@ def _replay(recording, law, writer, replayed, folder, console):
                 writer.write(REPLAYED, stamp, answer.data)
                 replayed[stamp] = answer.current
         if not replayed:
-            counted = (
-                ", ".join(f"{count} {name}" for name, count in trial.counts.items() if count) or "none came at all"
-            )
+            counted = ", ".join(f"{count} {name}" for name, count in trial.counts.items() if count)
             raise CommandError(
-                f"the controller answered none of {len(samples.stamp)} samples; answers: {counted}. sample_stamp of an "
-                f"answer must be the stamp of its Imu message{last_words()}"
+                f"the controller answered none of {len(samples.stamp)} samples; answers: {counted or 'none at all'}. "
+                f"sample_stamp of an answer must be the stamp of its Imu message{last_words()}"
             )
 
 
@@ -113,8 +111,10 @@ def _tell_pairing(samples, recorded, topics, console):
     """Say which samples the controller gets, where these are not all as they were recorded."""
     chassis, powertrain = topics
     if len(samples.stamp) < 2:
-        raise CommandError(f"{len(samples.stamp)} of {recorded} samples of {chassis} have one of {powertrain} within half a "
-                           "period; at least two are needed")  # fmt: skip
+        raise CommandError(
+            f"{len(samples.stamp)} of {recorded} samples of {chassis} have one of {powertrain} within half a period, "
+            "at least two are needed"
+        )
     if len(samples.stamp) < recorded or samples.apart.any():
         console.print(
             f"{len(samples.stamp)} of {recorded} samples of {chassis} have one of {powertrain} within half a period, "

@@ -4,9 +4,11 @@ from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.packed_message import MessageReader
 from mr_mount_controller.node_base.plain_text import readable
 from mr_mount_controller.node_base.qos import LOOP_QOS
+from rclpy.duration import Infinite
 from rclpy.qos import QoSCompatibility, QoSProfile, QoSReliabilityPolicy, qos_check_compatible
 from trackvib_msgs.msg import CoilCurrent
 
+_NOT_KNOWN_YET = "_NODE_NAME_UNKNOWN_"  # as DDS calls nodes of which it has heard half
 _BEST_EFFORT = QoSProfile(depth=LOOP_QOS.depth, reliability=QoSReliabilityPolicy.BEST_EFFORT)
 
 
@@ -17,7 +19,10 @@ class Answers:
     """
 
     def __init__(self, node, coils, on_answer, listen):
-        """`on_answer` takes the bytes, the stamp of the sample [ns] and the currents; `listen` is `LoopNode.listen`'s."""
+        """Listen, by `listen` as that of `LoopNode`, to so many currents.
+
+        `on_answer` takes an answer's bytes, the stamp of its sample [ns] and the currents.
+        """
         reader = MessageReader(CoilCurrent, "sample_stamp", {"current": coils})
         self._node = node
         self._listen = lambda qos: listen(
@@ -52,7 +57,18 @@ def misfits(node, publishers):
     """Yield, in a sentence each, who listens to one of some publishers and cannot hear it by his quality of service."""
     for publisher in publishers:
         for each in node.get_subscriptions_info_by_topic(publisher.topic_name):
-            verdict, reason = qos_check_compatible(publisher.qos_profile, each.qos_profile)
-            if verdict == QoSCompatibility.ERROR:
+            verdict, reason = qos_check_compatible(publisher.qos_profile, _asked_for(each.qos_profile))
+            if verdict == QoSCompatibility.ERROR and each.node_name != _NOT_KNOWN_YET:
                 name = readable(f"{each.node_namespace.rstrip('/')}/{each.node_name}")
                 yield f"{name} does not hear {publisher.topic_name}, its QoS does not fit: {reason.rstrip(' ;')}"
+
+
+def _asked_for(profile):
+    """Return a profile without the times that ask for nothing: infinite ones, where ROS's own default is none."""
+    times = {name: getattr(profile, name) for name in ("deadline", "liveliness_lease_duration")}
+    return QoSProfile(
+        depth=1,
+        reliability=profile.reliability,
+        durability=profile.durability,
+        **{name: time for name, time in times.items() if time < Infinite},
+    )
