@@ -46,11 +46,13 @@ class Definition:
 
     def __init__(self, type_name, encoding, text):
         self._type_name, self._store, self._known = type_name, get_typestore(Stores.EMPTY), {}
-        types = _parsed(type_name, encoding, text) if text.strip() else {}
+        types = _parsed(type_name, encoding, text)
         try:
             self._store.register(types | _lacking(types, type_name))
         except (TypesysError, ValueError, LookupError) as error:
             raise UnreadableDefinition(f"definition of {type_name} cannot be read: {error}") from None
+        if type_name not in self._store.fielddefs:
+            raise UnreadableDefinition(f"definition of {type_name} is not there, nor is the type a well-known one")
         self.kind = self._kind((Nodetype.NAME, type_name), "", _DEPTH)
 
     def message(self, data):
@@ -81,6 +83,8 @@ class Definition:
 
 
 def _parsed(type_name, encoding, text):
+    if not text.strip() and encoding in ("", *_PARSERS):  # not told
+        return {}
     try:
         parse = _PARSERS[encoding]
     except KeyError:

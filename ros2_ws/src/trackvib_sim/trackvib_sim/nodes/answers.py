@@ -45,7 +45,7 @@ class Answers:
     def _hear_best_effort(self):
         publishers = self._node.get_publishers_info_by_topic(self.topic)
         names = [each.node_name for each in publishers if each.qos_profile.reliability == _BEST_EFFORT.reliability]
-        if names:
+        if names and _NOT_KNOWN_YET not in names:
             self._subscriptions.append(self._listen(_BEST_EFFORT))
             self._node.get_logger().warning(
                 f"{readable(', '.join(names))} answers on {topics.COIL_CURRENT} with best effort: it is heard, but an "
