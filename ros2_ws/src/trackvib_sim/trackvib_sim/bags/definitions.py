@@ -99,15 +99,15 @@ def _parsed(type_name, encoding, text):
 
 def _lacking(types, type_name):
     """Return the well-known types that a type is made of, itself included, and that are not among the given ones."""
-    found, names = {}, [type_name]
+    found, seen, names = {}, set(), [type_name]
     while names:
         name = names.pop()
-        if name in found or (name not in types and name not in _WELL_KNOWN):
+        if name in seen or (name not in types and name not in _WELL_KNOWN):
             continue
-        fields = types.get(name) or _WELL_KNOWN[name]
+        seen.add(name)
         if name not in types:
-            found[name] = fields
-        names += [inner for _, description in fields[1] for inner in _named(description)]
+            found[name] = _WELL_KNOWN[name]
+        names += [inner for _, description in (types.get(name) or found[name])[1] for inner in _named(description)]
     return found
 
 
