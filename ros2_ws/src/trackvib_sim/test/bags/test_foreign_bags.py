@@ -135,9 +135,9 @@ def test_a_compressed_file_that_is_cut_short(tmp_path):
     random = np.random.default_rng(3)  # a frame of zstd is unfolded in blocks, of which there must be some
     noisy = lambda data: data[:-72] + random.bytes(72)  # noqa: E731
     file = pack(write_foreign(tmp_path / "bag_0.mcap", packed=noisy, **VARIANTS["not compressed"]))
-    file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
+    file.write_bytes(file.read_bytes()[: file.stat().st_size * 3 // 4])  # one topic lies behind the other
     recording = read_recording(tmp_path)
-    assert not recording.complete and 0 < len(recording.chassis.stamp) < 1000
+    assert not recording.complete and 0 < len(recording.powertrain.stamp) < 1000
     with pytest.raises(BagError, match="bag repair"):
         contents(tmp_path)
     (repaired,) = repair(tmp_path).files
