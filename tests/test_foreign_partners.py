@@ -141,6 +141,6 @@ def test_a_file_of_parameters_for_many_nodes(start_node, tmp_path):
     own.write_text("lab:\n  controller:\n    ros__parameters: {law: skyhook, speed: 12.0}\n")
     controller = start_node("controller", "--ros-args", "--params-file", shared, "--")
     controller.wait_for("law 'skyhook', waiting for accelerations")
-    assert controller.output.count("no parameters of it: gain.upper, speed") == 1
+    assert controller.output.count("these are no parameters of it: gain.upper, speed") == 1
     nested = start_node("controller", "--ros-args", "--params-file", own, "-r", "__ns:=/lab", "--")
     assert nested.wait() == 2 and "there is no parameter 'speed'" in nested.output

@@ -83,9 +83,7 @@ class LoopNode(Node):
                 raise ParameterError(f"{self.get_name()}: there is no parameter '{name}'; known are {known}")
         if unknown:
             names = readable(", ".join(sorted(unknown)))
-            self.get_logger().warning(
-                f"of what the file gives to many nodes, these are none of its parameters: {names}"
-            )
+            self.get_logger().warning(f"of what a file gives to many nodes, these are no parameters of it: {names}")
 
     def run(self):
         """Do the node's work until it is done or `self.stopping()`; by default answer callbacks."""
