@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from mr_mount_controller.node_base.cdr import leading_stamp
+from trackvib_sim.bags.errors import BagError
 from trackvib_sim.bags.playing import OpenBag
 from trackvib_sim.bags.samples import nearest, paired_samples
 
@@ -49,3 +50,18 @@ def test_messages_get_the_stamp_of_the_chassis(tmp_path):
     for (stamp, first, second), old in zip(found, imus(powertrain.tolist()), strict=True):
         assert leading_stamp(first) == leading_stamp(second) == stamp
         assert (second[:4], second[12:]) == (old[:4], old[12:])
+
+
+def test_drivers_may_swap_and_repeat_stamps(tmp_path):
+    """That is no second run; the bag of two runs is one, though its times are those of its stamps."""
+    stamp = stamps(200)
+    driver = stamp.copy()
+    driver[[50, 51]], driver[100] = driver[[51, 50]], driver[99]
+    for name, both, samples in (("driver", driver, 199), ("two runs", np.concatenate((stamp, stamp)), None)):
+        write_foreign(tmp_path / name / "bag_0.mcap", dict.fromkeys(TOPICS, both))
+        with OpenBag(tmp_path / name) as bag:
+            if samples:
+                assert len(paired_samples(bag, *TOPICS).stamp) == samples
+            else:
+                with pytest.raises(BagError, match="more than one run: after t = .* /chassis/imu begins anew"):
+                    paired_samples(bag, *TOPICS)

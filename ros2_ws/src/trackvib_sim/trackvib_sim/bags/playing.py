@@ -115,6 +115,10 @@ class OpenBag:
         numbers = [connection.number for connection in connections]
         return np.flatnonzero(np.isin(self._places["connection"], numbers))
 
+    def times(self, places):
+        """Return the times (k,) at which messages were recorded [ns]."""
+        return self._places["time"][places]
+
     def message(self, place):
         """Return the bytes of a message."""
         found = self._places[place]

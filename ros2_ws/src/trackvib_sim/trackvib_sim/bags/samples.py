@@ -7,6 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from mr_mount_controller.node_base.cdr import NANO, byte_order, leading_stamp
 
+from .errors import BagError
+
+_SWAPPED, _REPEATED = NANO, 0.1  # ns by which stamps may go back, and part of them that may come again
 _STAMP = slice(4, 12)  # bytes of a message that begins with a header
 
 
@@ -22,6 +25,11 @@ def paired_samples(bag, chassis, powertrain):
     """Return the `Samples` in an `OpenBag` for which both topics have a message within half a period of the chassis.
 
     Each message is in one pair at most; of several with one stamp the first counts.
+
+    Raises
+    ------
+    BagError
+        There is more than one run in the bag.
     """
     connections = {topic: [each for each in bag.connections if each.topic == topic] for topic in (chassis, powertrain)}
     (first, first_place), (second, second_place) = (_stamps(bag, connections[topic]) for topic in connections)
@@ -61,8 +69,23 @@ def _stamps(bag, connections):
     """Return the stamps (k,) of the messages of connections [ns], increasing, and their places in the bag."""
     places = bag.places(connections)
     stamp = np.array([leading_stamp(bag.message(place)) for place in places.tolist()], np.int64)
+    _require_one_run(stamp, bag.times(places), connections)
     stamp, index = np.unique(stamp, return_index=True)
     return stamp, places[index]
+
+
+def _require_one_run(stamp, time, connections):
+    """Raise BagError if stamps in order of their recording begin anew; drivers swap and repeat some, which is no run.
+
+    Of two runs in simulated time, which are recorded at their stamps, every message comes again at its time.
+    """
+    back = np.flatnonzero(np.diff(stamp) < -_SWAPPED)
+    again = np.flatnonzero((np.diff(stamp) == 0) & (np.diff(time) == 0))
+    if len(back) or len(again) > _REPEATED * len(stamp):
+        first = stamp[back[0] if len(back) else again[0]]
+        raise BagError(
+            f"the bag holds more than one run: after t = {first / NANO:.3f} s {connections[0].topic} begins anew"
+        )
 
 
 def _restamped(data, like):

@@ -39,7 +39,6 @@ def run_replay_controller(bag, law, out, console):
         The bag lacks a topic, the folder cannot be made, the domain is taken, or the controller ended.
     """
     recording = read_recording(bag)
-    recording.require()
     if REPLAYED in recording.counts:
         made_of = recording.provenance.get("replay", {}).get("bag", "the bag it was made of")
         raise BagError(f"bag {str(bag)!r} is the result of such a replay; give {made_of} instead")
@@ -117,8 +116,8 @@ def _tell_pairing(samples, recorded, topics, console):
         )
     if len(samples.stamp) < recorded or samples.apart.any():
         console.print(
-            f"{len(samples.stamp)} of {recorded} samples of {chassis} have one of {powertrain} within half a period, "
-            f"{np.abs(samples.apart).max() / 1e6:.3g} ms apart at most; the controller gets both with the stamp of the "
+            f"{len(samples.stamp)} of {recorded} samples of {chassis} have a stamp of their own and one of {powertrain} within half "
+            f"a period, {np.abs(samples.apart).max() / 1e6:.3g} ms apart at most; the controller gets both with the stamp of the "
             "former",
             soft_wrap=True,
         )
