@@ -116,9 +116,9 @@ def _tell_pairing(samples, recorded, topics, console):
         )
     if len(samples.stamp) < recorded or samples.apart.any():
         console.print(
-            f"{len(samples.stamp)} of {recorded} samples of {chassis} have a stamp of their own and one of {powertrain} "
-            f"within half a period, {np.abs(samples.apart).max() / 1e6:.3g} ms apart at most; the controller gets both "
-            "with the stamp of the former",
+            f"{len(samples.stamp)} of {recorded} samples of {chassis} have a stamp of their own and one of {powertrain}"
+            f" within half a period, {np.abs(samples.apart).max() / 1e6:.3g} ms apart at most; the controller gets "
+            "both with the stamp of the former",
             soft_wrap=True,
         )
 
