@@ -52,7 +52,7 @@ def test_waits_and_ends_cleanly(start_node, tmp_path, name, number):
         ("recorder", {"pattern": "'['"}, ["'pattern'", "'['", "regular expressions"]),
         ("recorder", {"compression": "gzip"}, ["'compression'", "'gzip'", "zstd, none"]),
         ("recorder", {"topicz": 3}, ["'topicz'", "known are", "topics"]),
-        ("controller", {"sample_rate": 300}, ["'sample_rate'", "300", "divisors"]),
+        ("controller", {"sample_rate": 3}, ["'sample_rate'", "3.0", "10 to 10000 Hz"]),
         ("simulator", {"use_sim_time": 3}, ["simulator: parameter 'use_sim_time' is 3", "true or false"]),
         ("player", {"use_sim_time": 3}, ["player: parameter 'use_sim_time' is 3", "true or false"]),
         ("player", {"start_type_description_service": " "}, ["'start_type_description_service'", "true or false"]),

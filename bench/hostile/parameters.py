@@ -96,7 +96,7 @@ def _attempt(make, words):
         try:
             start_ros(["node", *words])
             node = make()
-            node.refuse_unknown_parameters()
+            node.refuse_unknown_parameters([])
             made_of = [value for value in node.settings.values() if isinstance(value, float)]
         except REFUSALS as error:
             raise type(error)(plain_line(str(error))) from None  # as `run_node` prints it

@@ -3,6 +3,7 @@
 import sys
 import time
 from array import array
+from statistics import mean
 from typing import NamedTuple
 
 from rclpy.duration import Duration
@@ -16,20 +17,22 @@ from .node_base.cdr import NANO
 from .node_base.listener import Refused
 from .node_base.loop_node import LoopNode, NodeError, run_node
 from .node_base.packed_message import MessageReader
-from .node_base.parameters import Parameter, ParameterError
+from .node_base.parameters import Parameter
 from .node_base.patience import Patience
 from .node_base.qos import LATCHED_QOS, LOOP_QOS, LOOP_WRITER_QOS
 from .node_base.topics import CHASSIS_IMU, COIL_CURRENT, MOUNT_DESCRIPTION, POWERTRAIN_IMU
 
 PARAMETERS = (
     Parameter("law", "passive", "Control law: a known name, or package.module:Class."),
-    Parameter("sample_rate", 1000, "Rate of the Imu messages.", "Hz", 10, 10000),
+    Parameter("sample_rate", 1000.0, "Rate of the Imu messages.", "Hz", 10.0, 10000.0),
     Parameter("coils", 0, f"Number of coils; 0: as {MOUNT_DESCRIPTION} tells, for which it waits.", "", 0, MOST_COILS),
     Parameter("wait_for_recorder", False, "Answer nothing before a recorder listens to the currents, too."),
 )
 _PATIENCE = 10.0  # s of wall time for those who shall hear the answers
 _GREATEST = 1e6  # m/s^2 or rad/s; no sensor measures more
 _CLASH = 5  # wrong steps from the very first sample on are not gaps but another rate
+_MANY, _OFF = 100, 0.05  # so many steps tell a rate that is off by more than this part
+_RANGES = (0.5, 1.5), (0.0, 2.5)  # periods that a step takes without a lost sample, and with one; whole ms may look so
 
 
 class Reading(NamedTuple):
@@ -55,15 +58,13 @@ class ControllerNode(LoopNode):
         super().__init__("controller", PARAMETERS)
         law = find_law(self.settings["law"])
         values = self.declare_more(law.parameters)
-        rate = self.settings["sample_rate"]
-        if NANO % rate:
-            raise ParameterError(f"controller: parameter 'sample_rate' is {rate}, accepted are divisors of {NANO} Hz")
-        self._period = NANO // rate
+        self._period = round(NANO / self.settings["sample_rate"])
         self._law = law(self._period / NANO, **values)
         self._chassis = self._powertrain = None  # latest readings
         self._last = None  # stamp answered last, ns
         self._sample = None  # the sample answered last
-        self._steps = self._gaps = 0  # between samples, and those among them that were not one period
+        self._steps = self._gaps = 0  # between samples, and those among them that were not about one period
+        self._first = []  # steps, ns
         self._answer = CoilCurrent()
         self._stamp = self._answer.header.stamp = self._answer.sample_stamp
         self._mounting = None  # not known yet
@@ -154,22 +155,39 @@ class ControllerNode(LoopNode):
             )
 
     def _check_step(self, step):
-        """Count a gap between samples; raise `NodeError` if they come at another rate altogether."""
+        """Count a gap between samples; raise `NodeError` if they come at another rate altogether.
+
+        Stamps of a vehicle waver, so only many steps tell a rate that is not far off.
+        """
         self._steps += 1
-        if step == self._period:
+        if len(self._first) < _MANY:
+            self._first.append(step)
+            if len(self._first) == _MANY:
+                self._judge_rate()
+        if 2 * abs(step - self._period) < self._period:
             return
         self._gaps += 1
         if self._gaps == self._steps == _CLASH:
-            raise NodeError(
-                f"samples come {step / NANO} s apart ({NANO / step:g} Hz), sample_rate is {NANO // self._period} Hz: "
-                "the two rates clash"
-            )
+            self._clash(step)
         if self._gaps == 1:
             self.get_logger().warning(f"samples {step / NANO} s apart, expected {self._period / NANO} s")
+
+    def _judge_rate(self):
+        """Raise `NodeError` if the first steps come at another rate, with what may be lost samples and without."""
+        even, near = ([step for step in self._first if low <= step / self._period <= high] for low, high in _RANGES)
+        if even and all(abs(mean(steps) / self._period - 1.0) > _OFF for steps in (even, near)):
+            self._clash(mean(even))
+
+    def _clash(self, step):
+        raise NodeError(
+            f"samples come {step / NANO} s apart ({NANO / step:g} Hz), sample_rate is {self.settings['sample_rate']:g} "
+            "Hz: the two rates clash"
+        )
 
     def _wait_for_listeners(self):
         self.get_logger().info("first sample received, answering")
         self._steps = self._gaps = 0
+        self._first = []
         wanted = 1 + self.settings["wait_for_recorder"]
         # no callbacks are served here: the sample at hand is the one to answer
         heard = self._currents.get_subscription_count

@@ -10,13 +10,15 @@ from rclpy.exceptions import ParameterException
 from rclpy.experimental import EventsExecutor
 from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
+from rclpy.parameter import Parameter as RosParameter
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
 from .listener import Listener
+from .parameter_files import given_by_wildcard
 from .parameters import Parameter, ParameterError
 from .patience import Patience
-from .plain_text import plain_line
+from .plain_text import plain_line, readable
 from .shared_memory import remove_unfinished_segments
 
 _ACCEPTED = (
@@ -67,12 +69,21 @@ class LoopNode(Node):
         """How many messages could not be used."""
         return sum(listener.refused for listener in self._inputs)
 
-    def refuse_unknown_parameters(self):
-        """Raise `ParameterError` for a value given to a parameter that the node does not have."""
-        for name in self._parameter_overrides:  # rclpy has no public view of what was given but not declared
-            if not self.has_parameter(name):
+    def refuse_unknown_parameters(self, arguments):
+        """Raise `ParameterError` for a value given to a parameter that the node does not have.
+
+        What files among the arguments give to many nodes at once is meant for others, and named once.
+        """
+        # rclpy has no public view of what was given but not declared
+        unknown = [name for name in self._parameter_overrides if not self.has_parameter(name)]
+        of_others = given_by_wildcard(arguments) if unknown else ()
+        for name in unknown:
+            if name not in of_others:
                 known = ", ".join(sorted(self.settings))
                 raise ParameterError(f"{self.get_name()}: there is no parameter '{name}'; known are {known}")
+        if unknown:
+            names = readable(", ".join(sorted(unknown)))
+            self.get_logger().warning(f"of what a file gives to many nodes, these are no parameters of it: {names}")
 
     def run(self):
         """Do the node's work until it is done or `self.stopping()`; by default answer callbacks."""
@@ -108,6 +119,10 @@ class LoopNode(Node):
             else:
                 limits = FloatingPointRange(from_value=parameter.low, to_value=parameter.high, step=0.0)
                 descriptor.floating_point_range = [limits]
+        given = self._parameter_overrides.get(parameter.name)
+        if given is not None and (value := parameter.converted(given.value)) is not given.value:
+            # ROS tells 5 and 5.0 apart, and takes the one not for the other
+            self._parameter_overrides[given.name] = RosParameter(given.name, value=value)
         try:
             value = self.declare_parameter(parameter.name, parameter.default, descriptor).value
         except ParameterException:
@@ -161,11 +176,12 @@ def run_node(make_node, args=None, companions=()):
         signal.signal(number, lambda *_: stop.append(True))
     nodes = []
     try:
-        start_ros(sys.argv if args is None else args)
+        arguments = sys.argv if args is None else args
+        start_ros(arguments)
         executor = EventsExecutor()
         for make in (*companions, make_node):
             nodes.append(make())
-            nodes[-1].refuse_unknown_parameters()
+            nodes[-1].refuse_unknown_parameters(arguments)
             nodes[-1].prepare(lambda timeout: executor.spin_once(timeout_sec=timeout), lambda: bool(stop))
             executor.add_node(nodes[-1])
         try:

@@ -84,6 +84,8 @@ def test_what_does_not_fit_is_refused():
         Definition(NAME, "ros2msg", incomplete)
     with pytest.raises(LayoutError, match="is in 'protobuf', accepted are ros2msg, ros2idl"):
         Definition(NAME, "protobuf", b"")
+    with pytest.raises(LayoutError, match="definition of some_msgs/msg/Mixed is not there"):
+        Definition(NAME, "ros2msg", b"")
     with pytest.raises(LayoutError, match="cannot be read"):
         Definition(NAME, "ros2msg", b"float64 = = 3 [")
     with pytest.raises(LayoutError, match="field name is a wstring, which has no layout"):

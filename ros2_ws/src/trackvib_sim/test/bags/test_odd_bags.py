@@ -106,11 +106,11 @@ def test_a_damaged_chunk_is_named_with_the_way_out(bag, tmp_path):
 @pytest.mark.parametrize(
     ("end", "good", "bad"),
     [
-        ("chassis/imu", b"MSG: std_msgs/Header", b"MSG: std_msgs/Heade2"),  # what it is made of is not there
+        ("chassis/imu", b"std_msgs/Header header", b"std_msgs/Heade2 header"),  # what it is made of is not there
         ("odometry", b"pose\n", b"posd\n"),
         ("vehicle_description", b"string data", b"string date"),
         ("vehicle_description", b"string data", b"stri~g data"),
-        ("diagnostics", b"MSG: diagnostic_msgs/KeyValue", b"MSG: diagnostic_msgs/KeyValuf"),
+        ("diagnostics", b"\nKeyValue[]", b"\nKeyValuf[]"),
         ("diagnostics", b"builtin_interfaces/Time stamp", b"string                    stamp"),
     ],
 )

@@ -1,0 +1,74 @@
+"""Hears whoever answers with coil currents, whatever quality of service they offer."""
+
+from mr_mount_controller.node_base import topics
+from mr_mount_controller.node_base.packed_message import MessageReader
+from mr_mount_controller.node_base.plain_text import readable
+from mr_mount_controller.node_base.qos import LOOP_QOS
+from rclpy.duration import Infinite
+from rclpy.qos import QoSCompatibility, QoSProfile, QoSReliabilityPolicy, qos_check_compatible
+from trackvib_msgs.msg import CoilCurrent
+
+_NOT_KNOWN_YET = "_NODE_NAME_UNKNOWN_"  # as DDS calls nodes of which it has heard half
+_BEST_EFFORT = QoSProfile(depth=LOOP_QOS.depth, reliability=QoSReliabilityPolicy.BEST_EFFORT)
+
+
+class Answers:
+    """Subscriptions to the currents: a reliable one, for the lock-step must lose nothing.
+
+    Who offers best effort only is not heard by it, so a second subscription is made as soon as there is such a one.
+    """
+
+    def __init__(self, node, coils, on_answer, listen):
+        """Listen, by `listen` as that of `LoopNode`, to so many currents.
+
+        `on_answer` takes an answer's bytes, the stamp of its sample [ns] and the currents.
+        """
+        reader = MessageReader(CoilCurrent, "sample_stamp", {"current": coils})
+        self._node = node
+        self._listen = lambda qos: listen(
+            CoilCurrent, topics.COIL_CURRENT, on_answer, qos, lambda data: (data, *reader.read(data))
+        )
+        self._subscriptions = [self._listen(LOOP_QOS)]
+
+    @property
+    def topic(self):
+        """Full name of the topic."""
+        return self._subscriptions[0].topic_name
+
+    def count(self):
+        """Return how many nodes answer; a reliable subscription hears them all, or else the second one does."""
+        reliable = self._subscriptions[0].get_publisher_count()
+        if len(self._subscriptions) == 1 and self._node.count_publishers(self.topic) > reliable:
+            self._hear_best_effort()
+        return self._subscriptions[-1].get_publisher_count()
+
+    def _hear_best_effort(self):
+        publishers = self._node.get_publishers_info_by_topic(self.topic)
+        names = [each.node_name for each in publishers if each.qos_profile.reliability == _BEST_EFFORT.reliability]
+        if names and _NOT_KNOWN_YET not in names:
+            self._subscriptions.append(self._listen(_BEST_EFFORT))
+            self._node.get_logger().warning(
+                f"{readable(', '.join(names))} answers on {topics.COIL_CURRENT} with best effort: it is heard, but an "
+                "answer may be lost on its way; the loop is meant for reliable ones"
+            )
+
+
+def misfits(node, publishers):
+    """Yield, in a sentence each, who listens to one of some publishers and cannot hear it by his quality of service."""
+    for publisher in publishers:
+        for each in node.get_subscriptions_info_by_topic(publisher.topic_name):
+            verdict, reason = qos_check_compatible(publisher.qos_profile, _asked_for(each.qos_profile))
+            if verdict == QoSCompatibility.ERROR and each.node_name != _NOT_KNOWN_YET:
+                name = readable(f"{each.node_namespace.rstrip('/')}/{each.node_name}")
+                yield f"{name} does not hear {publisher.topic_name}, its QoS does not fit: {reason.rstrip(' ;')}"
+
+
+def _asked_for(profile):
+    """Return a profile without the times that ask for nothing: infinite ones, where ROS's own default is none."""
+    times = {name: getattr(profile, name) for name in ("deadline", "liveliness_lease_duration")}
+    return QoSProfile(
+        depth=1,
+        reliability=profile.reliability,
+        durability=profile.durability,
+        **{name: time for name, time in times.items() if time < Infinite},
+    )
