@@ -38,6 +38,6 @@ def _not_finite(columns):
     """Count the samples of some columns, the stamps first, with a value that is not finite."""
     count = 0
     for block in blocks(len(columns[0]), BLOCK):
-        parts = (column[block].reshape(len(column[block]), -1) for column in columns[1:])
+        parts = (column[block].reshape(len(column[block]), -1) for column in columns[1:3] if column is not None)
         count += int(np.count_nonzero(~np.logical_and.reduce([np.isfinite(part).all(axis=1) for part in parts])))
     return count

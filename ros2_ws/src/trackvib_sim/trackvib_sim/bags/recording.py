@@ -114,6 +114,7 @@ class Recording(NamedTuple):
     counts: Counter  # messages a topic
     complete: bool  # False where the bag was cut short
     notes: tuple = ()  # sentences: what of the bag was left out, and what was done to it
+    clocks: dict | None = None  # end of topic -> `analysis.numbers.Clock`, once sensors are on one time base
 
     @property
     def streams(self):

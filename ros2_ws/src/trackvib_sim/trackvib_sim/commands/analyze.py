@@ -10,6 +10,7 @@ from rich.table import Table
 
 from ..analysis.analyse import analyse
 from ..analysis.bag_tables import write_tables
+from ..analysis.clocks.time_base import on_one_time_base
 from ..analysis.levels import WEIGHTINGS
 from ..analysis.numbers import AXES, SENSORS
 from ..analysis.report.page import write_report
@@ -20,7 +21,7 @@ from ..console import Description, Terminal
 from .result_folder import CommandError, all_or_nothing
 
 
-def run_analyze(bags, settle, interval, speed_band, out):
+def run_analyze(bags, settle, interval, speed_band, out, time):
     """Analyse some bags; see `analyze_cli`.
 
     Raises
@@ -36,8 +37,9 @@ def run_analyze(bags, settle, interval, speed_band, out):
         analyses, report_data_list = [], []
         with _progress(console) as progress:
             for bag in bags:
-                recording = read_recording(bag, _reporter(progress, f"reading {bag}"))
+                recording = read_recording(bag, _reporter(progress, f"reading {bag}"), time)
                 try:
+                    recording = on_one_time_base(recording)
                     reporter = _reporter(progress, f"measuring {bag}")
                     analyses.append(analyse(recording, settle, reporter, interval, speed_band))
                     report_data_list.append(build_report_data(recording, analyses[-1]))
