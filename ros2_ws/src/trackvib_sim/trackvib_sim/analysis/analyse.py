@@ -12,6 +12,7 @@ from .history import build_history
 from .levels import build_bins
 from .lines import known_lines, missing_causes, read_causes
 from .loop_health import drive, loop_health, mount_energy
+from .measured import unit_notes
 from .motion import mean_motion
 from .mount_numbers import currents, mount_numbers
 from .notes import find_notes
@@ -105,5 +106,5 @@ def analyse(
         clocks=recording.clocks,
         spectra=spectra,
         history=build_history(recording, bins, levels),
-        notes=(*recording.notes, *find_notes(recording, segments), *missing_causes(recording, motion), *no_vehicle),
+        notes=(*recording.notes, *find_notes(recording, segments), *unit_notes(sensors), *missing_causes(recording, motion), *no_vehicle),
     )

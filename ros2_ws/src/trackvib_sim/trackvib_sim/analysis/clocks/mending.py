@@ -178,7 +178,7 @@ def _by_stamp(time, rest, period):
     order = np.argsort(time, kind="stable")
     line = time - rest
     off, still_off = (int(np.count_nonzero(np.abs(each) > width)) for each in (rest, time[order] - line))
-    return order if still_off <= 0.1 * off else None
+    return order if off and still_off <= 0.1 * off else None
 
 
 def _rough_period(stamp, logged, name):

@@ -3,12 +3,18 @@
 import numpy as np
 from mr_mount_controller.node_base import topics
 
+from ...numerics.units import NANO
+from ..measured import sound_samples
 from ..numbers import SENSORS
 from ..stamps import period_of, timing
 from .mending import NoClock, is_even, mend
+from .notes import clock_notes
 from .resampling import resampled
 
 SLIP = 0.05  # periods, by which one sensor may get ahead of the other without being resampled
+PARTS = 50  # of a recording, in which stamps are compared with the recorder's times
+SURE = 6.0  # times its scatter, above which a drift against these counts
+LEAST_DRIFT = 0.2  # periods, likewise
 ALIKE = 0.1  # relative difference of two rates up to which one sensor is resampled to that of the other
 _ENDS = dict(zip(SENSORS, (topics.CHASSIS_IMU, topics.POWERTRAIN_IMU), strict=True))
 
@@ -29,31 +35,46 @@ def on_one_time_base(recording):
     found = {}
     for name, inertial in {**{each: getattr(recording, each) for each in SENSORS}, **recording.sensors}.items():
         end = _ENDS.get(name, topics.imu_topic(name))
-        inertial, clock = _mended(inertial, end)
+        found[name], clock, words = _mended(inertial, end)
+        notes += words
         if clock is not None:
             clocks[end] = clock
-            notes += _notes_on(end, clock)
-        found[name] = inertial
     chassis, powertrain = (found.pop(sensor) for sensor in SENSORS)
-    powertrain, slip = _beside(chassis, powertrain)
-    notes += slip
+    if not any(np.isfinite(each.specific_force[0]).all() for each in (chassis, powertrain)):
+        raise NoClock(f"neither {' nor '.join(_ENDS.values())} measured an acceleration: {'; '.join(notes)}")
+    for step in (_by_one_clock, _at_the_same_instants):
+        powertrain, words = step(chassis, powertrain)
+        notes += words
     return recording._replace(
         chassis=chassis, powertrain=powertrain, sensors=found, notes=tuple(notes), clocks=clocks
     )
 
 
 def _mended(inertial, end):
-    """Return an `Inertial` with even stamps, and its `Clock` if that took anything."""
-    if is_even(inertial.stamp):
-        return inertial, None
-    try:
-        mended = mend(inertial.stamp, inertial.logged, inertial.specific_force, end)
-    except NoClock as error:
-        raise NoClock(f"{error}{_way_out(inertial)}") from None
-    if mended.clock is None:
-        return inertial, None
-    columns = (None if column is None else np.array(column)[mended.order] for column in inertial[1:])
-    return type(inertial)(mended.stamp, *columns), mended.clock
+    """Return an `Inertial` with even stamps and samples that are numbers, its `Clock` if that took anything, notes."""
+    sound, denied = sound_samples(inertial)
+    found, clock = inertial, None
+    if not is_even(inertial.stamp):
+        try:
+            mended = mend(inertial.stamp, inertial.logged, inertial.specific_force, end)
+        except NoClock as error:
+            raise NoClock(f"{error}{_way_out(inertial)}") from None
+        clock = mended.clock
+        if clock is not None:
+            found, sound = _part_of(inertial, mended.order)._replace(stamp=mended.stamp), sound[mended.order]
+    notes = [] if clock is None else clock_notes(end, clock)
+    if not sound.any():
+        why = "its covariance says so" if denied else "no sample is a number"
+        force = np.broadcast_to(np.nan, found.specific_force.shape)
+        return found._replace(specific_force=force), clock, [*notes, f"{end}: acceleration was not measured, {why}"]
+    if not sound.all():
+        notes.append(f"{end}: samples that are no numbers: {len(sound) - sound.sum()}; each ends a stretch as a gap does")
+        found = _part_of(found, np.flatnonzero(sound))
+    return found, clock, notes
+
+
+def _part_of(inertial, index):
+    return type(inertial)(*(None if column is None else np.array(column)[index] for column in inertial))
 
 
 def _way_out(inertial):
@@ -62,7 +83,59 @@ def _way_out(inertial):
     return "; `--time log` takes the times at which messages were recorded" if goes_on else ""
 
 
-def _beside(chassis, powertrain):
+def _by_one_clock(chassis, powertrain):
+    """Return the powertrain with the chassis's clock, where the recorder's shows that both differ, and a note.
+
+    Two clocks that were never set alike stamp times that do not overlap; two that run at different speeds slip.
+    """
+    if chassis.logged is None or powertrain.logged is None:
+        return powertrain, []
+    time, ahead = _ahead_of_recorder(chassis)
+    other_time, other_ahead = _ahead_of_recorder(powertrain)
+    overlap = min(time[-1], other_time[-1]) - max(time[0], other_time[0])
+    if not overlap > 0.0:
+        return powertrain, []
+    at = np.linspace(max(time[0], other_time[0]), min(time[-1], other_time[-1]), PARTS)
+    between = np.interp(at, other_time, other_ahead) - np.interp(at, time, ahead)
+    drift, middle = np.polyfit(at - at[0], between, 1)
+    scatter = float(np.std(between - middle - drift * (at - at[0])))
+    total, period = drift * overlap, period_of(chassis.stamp)
+    notes, shift = [], np.zeros(PARTS)
+    if abs(total) > max(SURE * scatter, LEAST_DRIFT * period):
+        shift = drift * (at - at[0])
+        notes.append(
+            f"powertrain/imu: by the times at which messages were recorded its clock runs {1e6 * drift:+.4g} ppm "
+            f"against that of chassis/imu ({total / NANO:+.3g} s in all): taken back"
+        )
+    if powertrain.stamp[0] > chassis.stamp[-1] or powertrain.stamp[-1] < chassis.stamp[0]:
+        shift = shift + middle
+        notes.append(
+            f"powertrain/imu: its stamps are {middle / NANO:+.6g} s from those of chassis/imu, recorded at the same "
+            "time: taken back"
+        )
+    if not notes:
+        return powertrain, []
+    back = np.interp((powertrain.stamp - powertrain.stamp[0]).astype(float),
+                     np.interp(at, *_stamps_at(powertrain)), shift)  # fmt: skip
+    return powertrain._replace(stamp=powertrain.stamp - np.round(back).astype(np.int64)), notes
+
+
+def _ahead_of_recorder(inertial):
+    """Return times of the recorder (p,) and by how much the stamps are ahead of it then, medians of parts, ns."""
+    count = min(PARTS, len(inertial.stamp))
+    edges = np.linspace(0, len(inertial.stamp), count + 1).astype(int)
+    parts = [slice(*each) for each in zip(edges[:-1], edges[1:], strict=True)]
+    ahead = np.array([np.median(inertial.stamp[part] - inertial.logged[part]) for part in parts])
+    return np.array([np.median(inertial.logged[part]) for part in parts]), ahead
+
+
+def _stamps_at(inertial):
+    """Return times of the recorder (p,), and the stamps from the first on [ns] then."""
+    time, ahead = _ahead_of_recorder(inertial)
+    return time, time + ahead - float(inertial.stamp[0])
+
+
+def _at_the_same_instants(chassis, powertrain):
     """Return the powertrain at the instants of the chassis, if its samples slip against those, and a note."""
     period, other = period_of(chassis.stamp), period_of(powertrain.stamp)
     if abs(other / period - 1.0) > ALIKE:
@@ -95,28 +168,3 @@ def _beside(chassis, powertrain):
 def _edges(stamp):
     """Return first indices of the stretches of even stamps, and their number."""
     return [0, *timing(stamp, 0)[1].tolist(), len(stamp)]
-
-
-def _notes_on(end, clock):
-    """Say in sentences what was found of a sensor's clock and done about it."""
-    period = 1.0 / clock.rate
-    notes = [
-        f"{end}: stamps are not even ({clock.steps}); samples are taken to be so, {clock.rate:.6g} Hz by a robust line "
-        f"through the stamps, which are {1e3 * clock.jitter:.3g} ms RMS and {1e3 * clock.correction:.3g} ms at most "
-        f"off it, {clock.correction / period:.2g} periods"
-    ]
-    if clock.counted_by_log:
-        notes.append(f"{end}: samples are counted by the times at which they were recorded, which are steadier")
-    for count, text in (
-        (clock.lost, "samples are missing between others"),
-        (clock.repeated, "stamps are those of the sample before"),
-        (clock.disordered, "samples were put in the order of their stamps"),
-        (clock.copies, "messages are in the bag twice, one of each left out"),
-        (clock.left_out, "samples stand apart or next to lost ones, left out"),
-    ):
-        if count:
-            notes.append(f"{end}: {count} {text}")
-    for step, witnessed in clock.settings:
-        what = "taken back, for the recorder's clock went on" if witnessed else "split there"
-        notes.append(f"{end}: the clock was set {'ahead' if step > 0 else 'back'} by {abs(step):.6g} s: {what}")
-    return notes
