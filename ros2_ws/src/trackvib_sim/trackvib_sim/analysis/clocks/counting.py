@@ -63,18 +63,24 @@ def _period(time, step):
 
 
 def _mean_step(time):
-    """Return the median of mean steps over many samples: lost ones are in few of these."""
+    """Return the median of mean steps over many samples: lost ones are in few of these, bursts are averaged."""
     many = int(np.clip(len(time) // 8, 1, 256))
-    return float(np.median(time[many:] - time[:-many])) / many
+    middles = time[: len(time) // many * many].reshape(-1, many).mean(axis=1)
+    return float(np.median(np.diff(middles))) / many
 
 
 def _beating(step, usual, regular):
     """Return whether steps are those of coarse stamps at another rate: other steps come as regularly as can be."""
     grain = np.abs(step - usual)[~regular]
-    if len(grain) < BEATS or not np.allclose(grain, grain[0], rtol=0.01):
+    if len(grain) < BEATS or not _mostly_alike(grain, 0.01):
         return False
     apart = np.diff(np.flatnonzero(~regular))
-    return bool((np.abs(apart - np.median(apart)) <= 1.0 + 0.02 * np.median(apart)).mean() >= 0.9)
+    return _mostly_alike(apart, 0.02, 1.0)
+
+
+def _mostly_alike(values, relative, absolute=0.0):
+    middle = np.median(values)
+    return bool((np.abs(values - middle) <= absolute + relative * np.abs(middle)).mean() >= 0.9)
 
 
 def _scatter(ahead):

@@ -69,7 +69,7 @@ def mend(stamp, logged, force, name):
     logged = None if logged is None or _tells_nothing(stamp, logged) else np.array(logged)
     if not stamp.any():
         raise NoClock(f"all {count} header stamps of {name} are zero")
-    order = time_order(stamp, stamp if logged is None else logged, force)
+    order = time_order(stamp, logged, force)
     order = np.arange(count) if order is None else order
     copies = count - len(order)
     stamp, logged = stamp[order], None if logged is None else logged[order]
@@ -199,7 +199,10 @@ def _tells_nothing(stamp, logged):
 
 def in_steps(stamp):
     """Return in words which steps stamps make."""
-    steps, counts = np.unique(np.round(np.diff(stamp) / (NANO / 1e6)).astype(np.int64), return_counts=True)
+    step = np.diff(stamp) / NANO * 1e3
+    steps, counts = np.unique(np.round(step, 3), return_counts=True)
     most = np.sort(np.argsort(counts)[::-1][:3])
-    words = [f"{counts[k]} of {1e-3 * steps[k]:g} ms" for k in most]
-    return f"{counts.sum()} steps, {', '.join(words)}{', others' if len(steps) > 3 else ''}"
+    if counts[most].sum() < 0.5 * len(step):
+        return f"{len(step)} steps from {step.min():.4g} to {step.max():.4g} ms, half of them below {np.median(step):.4g} ms"
+    words = [f"{counts[k]} of {steps[k]:g} ms" for k in most]
+    return f"{len(step)} steps, {', '.join(words)}{', others' if len(steps) > 3 else ''}"

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from ...numerics.units import NANO
+
 MOST_RUNS = 1000  # in which the file goes on; of more each message is put in its place by itself
 LOCAL = 0.1  # s, by which a recorder of several threads may write messages late
 
@@ -15,15 +17,17 @@ def time_order(stamp, logged, force):
     Parameters
     ----------
     stamp, logged : (k,) int
-        ns
+        ns; where the recorder took the stamps for its times (`logged` None) they count as such.
     force : (k, 3) array
     """
+    local = LOCAL * NANO if logged is not None else 0
+    logged = stamp if logged is None else logged
     back = np.flatnonzero(np.diff(logged) < 0) + 1
     if not back.size:
         return None
     ordered = np.argsort(logged, kind="stable")
     depth = (logged[back - 1] - logged[back]).max()
-    if depth <= LOCAL * 1e9:
+    if depth <= local:
         return ordered
     first, last = logged[np.append(0, back)], logged[np.append(back, len(logged)) - 1]
     runs = np.argsort(first, kind="stable")

@@ -26,7 +26,9 @@ def standing_apart(stamp, logged, period):
     They are stamped before the clock was set at all, or while it was wrong. Arguments as of `find_settings`.
     """
     places, jump, passed = _jumps(stamp, logged, period)
-    unexplained = ~_set(jump, passed, period) & ((jump < 0) | (jump > APART * NANO))
+    unexplained = ~_set(jump, passed, period)
+    if not (jump[unexplained] < 0).any():  # else any other jump may be the first half of that
+        unexplained &= jump > APART * NANO
     edges = np.concatenate(([0], places[unexplained], [len(stamp)]))
     few = np.diff(edges) < SHORT * NANO / period
     return np.repeat(few & (len(edges) > 2), np.diff(edges))
