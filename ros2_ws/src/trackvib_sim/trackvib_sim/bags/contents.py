@@ -1,19 +1,22 @@
-"""What is in a bag, from the indexes of its files."""
+"""What is in a bag, from the indexes of its files, or where these do not tell it from the files themselves."""
 
 from collections import Counter
 from typing import NamedTuple
 
+from mcap.exceptions import InvalidMagic
 from mcap.writer import MCAP0_MAGIC
+from zstandard import ZstdError
 
 from .errors import BagError
 from .files import bag_files
 from .limits import TooLarge
-from .mcap_summary import summary_of
+from .mcap_summary import full_summary
 from .metadata import channels
+from .opening import opened
 
 
 class Contents(NamedTuple):
-    """A bag as its indexes tell it."""
+    """What a bag holds."""
 
     files: list  # of Path
     size: int  # bytes
@@ -57,14 +60,14 @@ def contents(path):
 
 def _summary(file):
     try:
-        summary = summary_of(file)
+        summary = full_summary(file)
         if summary is None:
-            with file.open("rb") as stream:
+            with opened(file) as stream:
                 magic = stream.read(len(MCAP0_MAGIC))
-    except OSError as error:
-        raise BagError(f"{str(file)!r} cannot be read: {error.strerror}") from None
-    except TooLarge as error:
-        raise BagError(f"{str(file)!r} cannot be read: {error}") from None
+    except InvalidMagic:
+        raise BagError(f"{str(file)!r} is no MCAP file") from None
+    except (OSError, TooLarge, ZstdError) as error:
+        raise BagError(f"{str(file)!r} cannot be read: {getattr(error, 'strerror', None) or error}") from None
     if summary is not None:
         return summary
     if magic != MCAP0_MAGIC:

@@ -7,9 +7,12 @@ from mr_mount_controller.node_base.plain_text import readable
 
 from ..yaml_text import YamlTextError, load, read_text
 from .errors import BagError
+from .opening import how_to_convert
+
+_FOLDED = (".zstd", ".zst")  # behind the name of a file that is compressed as a whole
+_SUFFIXES = (".mcap", *(f".mcap{folded}" for folded in _FOLDED))
 
 METADATA = "metadata.yaml"
-_SUFFIX = ".mcap"
 
 
 class BagFiles(NamedTuple):
@@ -54,17 +57,22 @@ def find_files(path):
 def _files(path):
     if path.is_file():
         return BagFiles([path], [], [])
-    visible = (each for each in path.glob(f"*{_SUFFIX}") if each.is_file() and not each.name.startswith("."))
-    files = sorted(visible, key=lambda each: (len(each.name), each.name))
+    found = (each for suffix in _SUFFIXES for each in path.glob(f"*{suffix}") if each.is_file())
+    there = {each.name: each for each in found if not each.name.startswith(".")}
+    # a player that unfolded a file left it beside
+    files = [each for name, each in there.items() if not any(f"{name}{folded}" in there for folded in _FOLDED)]
+    files.sort(key=lambda each: (len(each.name), each.name))
     if not files:
         inside = path / "bag"
         hint = f"; did you mean {str(inside)!r}?" if inside.is_dir() else ""  # of a run's folder
+        if any(each.suffix in (".db3", ".bag") for each in path.glob("*.*")):
+            hint = f"; {how_to_convert(path)}"
         raise BagError(f"bag {str(path)!r} {'holds no .mcap file' if path.is_dir() else 'is not there'}{hint}")
-    there, listed = {each.name: each for each in files}, _listed(path)
+    listed = _listed(path)
     found = [there[name] for name in listed if name in there]
     if not found:  # of a bag whose files were renamed the list tells nothing
         return BagFiles(files, [], listed)
-    return BagFiles(found, [name for name in there if name not in listed], [n for n in listed if n not in there])
+    return BagFiles(found, sorted(there.keys() - listed), [name for name in listed if name not in there])
 
 
 def _listed(path):
@@ -81,3 +89,8 @@ def called(path):
     """Return what to call a bag in a title: its name, with that of the run's folder before `bag`."""
     parts = Path(path).resolve().parts
     return readable("/".join(parts[-2:]) if parts[-1] == "bag" else parts[-1])
+
+
+def unfolded(file):
+    """Return the path of a file of a bag (a Path) as it is called without its compression as a whole."""
+    return file.with_suffix("") if file.suffix in _FOLDED else file

@@ -23,8 +23,10 @@ from .files import find_files
 from .limits import TooLarge
 from .mcap_records import DAMAGE
 from .mcap_walk import Walk
+from .opening import how_to_convert, opened
 from .raw_messages import NO_SCHEMA
 from .recording import Answers, Commands, Drive, Inertial, LoopCounts, Mounts, Odometry, Recording
+from .unfolding import unfold_messages
 
 _SENSOR = Columns(
     topics.IMU_TYPE,
@@ -73,6 +75,7 @@ _RARE = {  # read message by message
 _TYPES = {end: columns.type_name for end, columns in COLUMNS.items()} | _RARE
 _FURTHER = topics.imu_topic("")  # stands for the end of every further sensor's topic
 _MOST_FURTHER = 100
+_ROS_1 = "ros1msg"  # encoding of the definitions of ROS 1, whose messages are serialised in another way
 _ANSWERS = ("accepted", "late", "duplicate", "not_finite")  # to samples that were out, among the diagnostics
 # a definition that is damaged or not the one we know gives the others where it is applied
 _READ_ERRORS = (
@@ -141,13 +144,13 @@ class _Reading:
     def __init__(self, by_log):
         self._by_log = by_log
         self._columns, self._further, self._roads, self._texts, self._mountings = {}, {}, {}, {}, {}  # by topic
-        self._loop_counts, self._diagnostics = [], {}
+        self._loop_counts, self._diagnostics, self._ros_1 = [], {}, set()
         self._provenance, self._counts, self._complete = {}, Counter(), True
 
     def read(self, file, on_progress):
         """Read one file; ids of schemas and channels are its own."""
         schemas, channels, definitions = {}, {}, {}
-        with file.open("rb") as stream:
+        with opened(file) as stream:
             walk = Walk(stream)
             for part in walk.parts():
                 _require_undamaged(walk)
@@ -168,11 +171,14 @@ class _Reading:
                     start, size = part.messages.start[of_channel], part.messages.size[of_channel]
                     self._counts[channel.topic] += len(start)
                     end = _end_of(channel.topic)
-                    if end is not None and schema is not None and schema.name == _TYPES.get(end, topics.IMU_TYPE):
+                    if schema is not None and schema.encoding == _ROS_1:
+                        self._ros_1.add(channel.topic)
+                    elif end is not None and schema is not None and schema.name == _TYPES.get(end, topics.IMU_TYPE):
                         if schema.id not in definitions:
                             definitions[schema.id] = Definition(schema.name, schema.encoding, schema.data)
+                        messages = unfold_messages(part.data, start, size)
                         logged = part.messages.head["log_time"][of_channel].astype(np.int64)
-                        self._take(channel.topic, end, definitions[schema.id], part.data, start, size, logged)
+                        self._take(channel.topic, end, definitions[schema.id], *messages, logged)
                 on_progress(part.end)
             _require_undamaged(walk)
             self._complete &= walk.complete
@@ -215,6 +221,11 @@ class _Reading:
         for topic in self._columns | self._roads | self._texts | self._mountings:
             found[_end_of(topic)].append(topic)
         missing = [end for end in _NEEDED if not found[end]]
+        if missing and self._ros_1:
+            raise BagError(
+                f"bag {str(path)!r} holds messages of ROS 1 on {', '.join(sorted(self._ros_1))}; "
+                f"{how_to_convert('FILE.bag')}, where FILE.bag is the bag of ROS 1 from which it was made"
+            )
         if missing:
             raise BagError(f"bag {str(path)!r} holds no {_SENSOR.type_name} on {', '.join(missing)}")
         space = found[topics.CHASSIS_IMU][0].removesuffix(topics.CHASSIS_IMU)

@@ -40,10 +40,10 @@ def run_repair(path):
     for file in done.files:
         for line in _words(file):
             console.print(line, soft_wrap=True)
+    if not done.files:
+        console.print(f"{path}: sound{'' if done.metadata else ', nothing to do'}", soft_wrap=True)
     if done.metadata:
         console.print("metadata.yaml written", soft_wrap=True)
-    elif not done.files:
-        console.print(f"{path}: sound, nothing to do", soft_wrap=True)
 
 
 def _words(file):
