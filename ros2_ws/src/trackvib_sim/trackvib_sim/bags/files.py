@@ -4,10 +4,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 from mr_mount_controller.node_base.plain_text import readable
+from zstandard import ZstdError
 
 from ..yaml_text import YamlTextError, load, read_text
 from .errors import BagError
-from .opening import how_to_convert
+from .mcap_walk import has_records
+from .opening import how_to_convert, opened
 
 _FOLDED = (".zstd", ".zst")  # behind the name of a file that is compressed as a whole
 _SUFFIXES = (".mcap", *(f".mcap{folded}" for folded in _FOLDED))
@@ -21,14 +23,19 @@ class BagFiles(NamedTuple):
     files: list  # of Path, in the order of `metadata.yaml`, or of their names
     beside: list  # names of files that `metadata.yaml` does not list: none of the bag
     absent: list  # names that it lists and that are not there
+    unreadable: list  # of Path: splits that are empty or no MCAP
 
     @property
     def notes(self):
         """What is odd about them, in sentences."""
-        beside, absent = (", ".join(readable(name) for name in names) for names in (self.beside, self.absent))
+        unreadable = [each.name for each in self.unreadable]
+        beside, absent, unreadable = (
+            ", ".join(readable(name) for name in names) for names in (self.beside, self.absent, unreadable)
+        )
         return (
             *([f"not among the files that {METADATA} lists, left out: {beside}"] if beside else []),
             *([f"listed by {METADATA}, not there: {absent}"] if absent else []),
+            *([f"empty or no MCAP, left out: {unreadable} (`trackvib bag repair` sets it aside)"] if unreadable else []),
         )
 
 
@@ -56,7 +63,7 @@ def find_files(path):
 
 def _files(path):
     if path.is_file():
-        return BagFiles([path], [], [])
+        return BagFiles([path], [], [], [])
     found = (each for suffix in _SUFFIXES for each in path.glob(f"*{suffix}") if each.is_file())
     there = {each.name: each for each in found if not each.name.startswith(".")}
     # a player that unfolded a file left it beside
@@ -69,10 +76,20 @@ def _files(path):
             hint = f"; {how_to_convert(path)}"
         raise BagError(f"bag {str(path)!r} {'holds no .mcap file' if path.is_dir() else 'is not there'}{hint}")
     listed = _listed(path)
-    found = [there[name] for name in listed if name in there]
+    found, beside = [there[name] for name in listed if name in there], sorted(there.keys() - listed)
     if not found:  # of a bag whose files were renamed the list tells nothing
-        return BagFiles(files, [], listed)
-    return BagFiles(found, sorted(there.keys() - listed), [name for name in listed if name not in there])
+        found, beside = files, []
+    sound = [each for each in found if len(found) == 1 or _is_mcap(each)] or found  # of all alike the first is named
+    absent = [name for name in listed if name not in there]
+    return BagFiles(sound, beside, absent, [each for each in found if each not in sound])
+
+
+def _is_mcap(file):
+    try:
+        with opened(file) as stream:
+            return has_records(stream)
+    except ZstdError:
+        return False
 
 
 def _listed(path):

@@ -8,11 +8,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from mcap.exceptions import InvalidMagic
 from mcap.records import Channel, Metadata, Schema
 from mr_mount_controller.mounting import MOST_COILS, MOST_MOUNTS, described, undescribed
 from mr_mount_controller.node_base import topics
-from mr_mount_controller.node_base.plain_text import readable
 from rosbags.serde import SerdeError
 
 from ..numerics.units import NANO
@@ -40,7 +38,6 @@ _SENSOR = Columns(
     logged="logged",
 )
 HEADER_TIME, LOG_TIME = TIMES = ("header", "log")  # that may be the time base
-_SETS_ASIDE = "`trackvib bag repair` sets it aside"
 _NUMBERS = {name: (name, (-1,)) for name in ("current", "stiffness", "damping")}
 _VECTORS = {name: (name, (-1, 3)) for name in ("deflection", "velocity", "force")}
 _DRIVE = ("distance", "offset", "wanted_speed", "curvature", "engine_speed", "gear")
@@ -117,16 +114,11 @@ def read_recording(
     """
     path, reading = Path(path), _Reading(by_log=time == LOG_TIME)
     found = find_files(path)
-    files, unreadable = found.files, []
+    files = found.files
     try:
         total, done = sum(file.stat().st_size for file in files), 0
         for file in files:
-            try:
-                reading.read(file, lambda end, before=done: on_progress(before + end, total))
-            except InvalidMagic:
-                if len(files) == 1:
-                    raise
-                unreadable.append(file.name)  # a split of which nothing was written
+            reading.read(file, lambda end, before=done: on_progress(before + end, total))
             done += file.stat().st_size
         recording = reading.recording(path)
     except BagError:
@@ -134,8 +126,7 @@ def read_recording(
     except _READ_ERRORS as error:
         raise BagError(f"bag {str(path)!r} cannot be read: {str(error) or type(error).__name__}") from None
     on_progress(total, total)
-    notes = [f"{readable(name)} is empty or no MCAP file, left out; {_SETS_ASIDE}" for name in unreadable]
-    return recording._replace(notes=(*found.notes, *notes))
+    return recording._replace(notes=found.notes)
 
 
 class _Reading:
