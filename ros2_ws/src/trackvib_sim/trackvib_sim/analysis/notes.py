@@ -37,7 +37,10 @@ def find_notes(recording, segments):
 def _not_finite(columns):
     """Count the samples of some columns, the stamps first, with a value that is not finite."""
     count = 0
+    others = ("logged", "covariance")
+    named = zip(columns._fields[1:], columns[1:], strict=True)
+    measured = [column for name, column in named if name not in others and column is not None]
     for block in blocks(len(columns[0]), BLOCK):
-        parts = (column[block].reshape(len(column[block]), -1) for column in columns[1:3] if column is not None)
+        parts = (column[block].reshape(len(column[block]), -1) for column in measured)
         count += int(np.count_nonzero(~np.logical_and.reduce([np.isfinite(part).all(axis=1) for part in parts])))
     return count
