@@ -154,7 +154,10 @@ def _at_the_same_instants(chassis, powertrain):
         slips.append(np.ptp(place - sound))
         stamps.append((at, begin, end, place))
     if not slips or max(slips) <= SLIP:
-        return powertrain, []
+        places = np.concatenate([place for *_, place in stamps]) if stamps else np.zeros(1)
+        apart = float(np.median(np.abs(places - np.round(places))))
+        note = f"powertrain/imu is sampled {1e-6 * apart * other:.3g} ms from chassis/imu: paired with the nearest sample"
+        return powertrain, [note] if apart > SLIP else []
     force = [resampled(powertrain.specific_force[b:e], place, other / period) for _, b, e, place in stamps]
     stamp = np.concatenate([at for at, *_ in stamps])
     drift = 1e6 * (period / other - 1.0)
