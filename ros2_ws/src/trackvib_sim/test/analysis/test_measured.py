@@ -64,7 +64,7 @@ def test_a_sensor_that_measures_nothing_has_no_numbers(name, how):
     other = "powertrain" if name == "chassis" else "chassis"
     assert np.isnan([found.sensors[name][axis].rms for axis in "xyz"]).all()
     assert np.isnan(found.spectra.transmissibility).all() and np.isnan(found.absorbed_power[name])
-    assert found.sensors[other] == analyse(pair()).sensors[other]
+    assert found.sensors[other]["z"] == analyse(pair()).sensors[other]["z"]
     assert any(f"{name}/imu: acceleration was not measured" in note for note in found.notes)
     assert build_report_data(recording, found).analysis is found
 

@@ -86,7 +86,9 @@ def test_a_split_of_which_nothing_was_written(split, name, content):
     assert recording.counts["/chassis/imu"] == 20
     assert recording.notes == (f"empty or no MCAP, left out: {name} (`trackvib bag repair` sets it aside)",)
     done = repair(split)
-    assert [(file.file.name, file.flaw, file.original.name) for file in done.files] == [(name, NO_MCAP, f"{name}.damaged")]
+    assert [(file.file.name, file.flaw, file.original.name) for file in done.files] == [
+        (name, NO_MCAP, f"{name}.damaged")
+    ]
     assert done.metadata and find_files(split).notes == () and (split / f"{name}.damaged").read_bytes() == content
     again = read_recording(split)
     np.testing.assert_array_equal(again.chassis.stamp, recording.chassis.stamp)

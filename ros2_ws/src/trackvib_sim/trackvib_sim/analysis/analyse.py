@@ -106,5 +106,11 @@ def analyse(
         clocks=recording.clocks,
         spectra=spectra,
         history=build_history(recording, bins, levels),
-        notes=(*recording.notes, *find_notes(recording, segments), *unit_notes(sensors), *missing_causes(recording, motion), *no_vehicle),
+        notes=(
+            *recording.notes,
+            *find_notes(recording, segments),
+            *unit_notes(sensors),
+            *missing_causes(recording, motion),
+            *no_vehicle,
+        ),
     )

@@ -24,7 +24,8 @@ def find_notes(recording, segments):
             f"gaps: {found.gap_count}, in which {missing} missing": found.gap_count,
             f"samples within half a period of the one before: {found.repeated}": found.repeated,
             f"samples older than the one before: {found.backward}": found.backward,
-            f"samples that are no numbers: {odd[end]}": odd[end] % found.samples,  # of a sensor that measured nothing all
+            f"samples that are no numbers: {odd[end]}": odd[end]
+            % found.samples,  # of a sensor that measured nothing all
         }
         notes += [f"{end}: {text}" for text, count in counts.items() if count]
     if segments.rate < LEAST_RATE:

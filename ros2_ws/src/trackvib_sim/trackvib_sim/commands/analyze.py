@@ -90,9 +90,7 @@ def _levels(analyses):
             for axis, n in axes.items():
                 weighted = f"{WEIGHTINGS[AXES.index(axis)]} {_told(n.rms_weighted)}"
                 rest = (n.crest_factor, n.mtvv, n.vdv, *((analysis.absorbed_power[sensor],) if axis == "z" else ()))
-                table.add_row(
-                    f"{sensor} {axis}", _told(n.rms), _told(n.peak), weighted, *map(_told, rest)
-                )
+                table.add_row(f"{sensor} {axis}", _told(n.rms), _told(n.peak), weighted, *map(_told, rest))
     return table
 
 

@@ -214,7 +214,10 @@ def test_parts_in_any_order_and_copies():
     """A file whose second half comes first, and one that has a part twice."""
     time = times(1000.0, 10.0)
     whole = np.arange(len(time))
-    for kept, note in ((np.roll(whole, 5000), ""), (np.append(whole, whole[2000:6000]), "4000 messages are in the bag")):
+    for kept, note in (
+        (np.roll(whole, 5000), ""),
+        (np.append(whole, whole[2000:6000]), "4000 messages are in the bag"),
+    ):
         found = analyse(both(time, logged=time - 0.01, kept=kept) if note else both(time, kept=kept))
         require_right(found, 1000.0)
         assert found.measured == 8.0 and (not note or says(found, note))

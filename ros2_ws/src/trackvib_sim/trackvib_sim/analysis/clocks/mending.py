@@ -137,7 +137,8 @@ def _mend_part(stamp, logged, name):
     found = count_samples(time)
     by_log = None if logged is None else count_samples((logged - logged[0]).astype(float))
     witnessed = by_log is not None and (
-        found is None or (by_log.scatter <= max(found.scatter, 0.1) and by_log.lost < found.lost)
+        found is None
+        or (by_log.scatter <= max(found.scatter, 0.1) and by_log.lost < found.lost)
         or by_log.scatter < 0.5 * found.scatter
     )
     if witnessed:

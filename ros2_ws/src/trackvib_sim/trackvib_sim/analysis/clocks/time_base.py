@@ -45,9 +45,7 @@ def on_one_time_base(recording):
     for step in (_by_one_clock, _at_the_same_instants):
         powertrain, words = step(chassis, powertrain)
         notes += words
-    return recording._replace(
-        chassis=chassis, powertrain=powertrain, sensors=found, notes=tuple(notes), clocks=clocks
-    )
+    return recording._replace(chassis=chassis, powertrain=powertrain, sensors=found, notes=tuple(notes), clocks=clocks)
 
 
 def _mended(inertial, end):
@@ -68,7 +66,9 @@ def _mended(inertial, end):
         force = np.broadcast_to(np.nan, found.specific_force.shape)
         return found._replace(specific_force=force), clock, [*notes, f"{end}: acceleration was not measured, {why}"]
     if not sound.all():
-        notes.append(f"{end}: samples that are no numbers: {len(sound) - sound.sum()}; each ends a stretch as a gap does")
+        notes.append(
+            f"{end}: samples that are no numbers: {len(sound) - sound.sum()}; each ends a stretch as a gap does"
+        )
         found = _part_of(found, np.flatnonzero(sound))
     return found, clock, notes
 
@@ -156,7 +156,9 @@ def _at_the_same_instants(chassis, powertrain):
     if not slips or max(slips) <= SLIP:
         places = np.concatenate([place for *_, place in stamps]) if stamps else np.zeros(1)
         apart = float(np.median(np.abs(places - np.round(places))))
-        note = f"powertrain/imu is sampled {1e-6 * apart * other:.3g} ms from chassis/imu: paired with the nearest sample"
+        note = (
+            f"powertrain/imu is sampled {1e-6 * apart * other:.3g} ms from chassis/imu: paired with the nearest sample"
+        )
         return powertrain, [note] if apart > SLIP else []
     force = [resampled(powertrain.specific_force[b:e], place, other / period) for _, b, e, place in stamps]
     stamp = np.concatenate([at for at, *_ in stamps])
