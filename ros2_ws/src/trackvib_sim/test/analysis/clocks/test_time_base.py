@@ -1,4 +1,4 @@
-"""Clocks of real sensors: coarse, late, repeated, drifting, set; numbers as if they had been perfect, and what was done."""
+"""Clocks of real sensors: coarse, late, drifting, set; numbers as if they were perfect, and what was done is told."""
 
 import numpy as np
 import pytest

@@ -211,6 +211,6 @@ def in_steps(stamp):
     steps, counts = np.unique(np.round(step, 3), return_counts=True)
     most = np.sort(np.argsort(counts)[::-1][:3])
     if counts[most].sum() < 0.5 * len(step):
-        return f"{len(step)} steps from {step.min():.4g} to {step.max():.4g} ms, half of them below {np.median(step):.4g} ms"
+        return f"{len(step)} steps from {step.min():.4g} to {step.max():.4g} ms, median {np.median(step):.4g} ms"
     words = [f"{counts[k]} of {steps[k]:g} ms" for k in most]
     return f"{len(step)} steps, {', '.join(words)}{', others' if len(steps) > 3 else ''}"

@@ -1,4 +1,4 @@
-"""Both sensors on one time base: mended stamps, samples that are none taken out, the powertrain at the chassis's instants."""
+"""Both sensors on one time base: stamps mended, samples that are none left out, both at the same instants."""
 
 import numpy as np
 from mr_mount_controller.node_base import topics
@@ -140,7 +140,7 @@ def _at_the_same_instants(chassis, powertrain):
     period, other = period_of(chassis.stamp), period_of(powertrain.stamp)
     if abs(other / period - 1.0) > ALIKE:
         return powertrain, []
-    stamps, values, slips = [], [], []
+    stamps, slips = [], []
     edges = _edges(powertrain.stamp)
     for begin, end in zip(edges[:-1], edges[1:], strict=True):
         own = powertrain.stamp[begin:end]
