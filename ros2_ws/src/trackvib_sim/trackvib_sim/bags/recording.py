@@ -23,6 +23,10 @@ class Inertial(NamedTuple):
     logged: np.ndarray | None = None  # (k,) when each message was recorded, ns
     covariance: np.ndarray | None = None  # (k,) first number of that of the force; -1: not measured
 
+    def at(self, index):
+        """Return the samples with some index, in its order."""
+        return Inertial(*(None if column is None else np.asarray(column)[index] for column in self))
+
 
 class Mounts(NamedTuple):
     """All n mounts over a run, those with a coil first; vectors in the hull's axes, as `MountState` has them."""

@@ -59,7 +59,7 @@ def _mended(inertial, end):
             raise NoClock(f"{error}{_way_out(inertial)}") from None
         clock = mended.clock
         if clock is not None:
-            found, sound = _part_of(inertial, mended.order)._replace(stamp=mended.stamp), sound[mended.order]
+            found, sound = inertial.at(mended.order)._replace(stamp=mended.stamp), sound[mended.order]
     notes = [] if clock is None else clock_notes(end, clock)
     if not sound.any():
         why = "its covariance says so" if denied else "no sample is a number"
@@ -69,12 +69,8 @@ def _mended(inertial, end):
         notes.append(
             f"{end}: samples that are no numbers: {len(sound) - sound.sum()}; each ends a stretch as a gap does"
         )
-        found = _part_of(found, np.flatnonzero(sound))
+        found = found.at(sound)
     return found, clock, notes
-
-
-def _part_of(inertial, index):
-    return type(inertial)(*(None if column is None else np.array(column)[index] for column in inertial))
 
 
 def _way_out(inertial):
