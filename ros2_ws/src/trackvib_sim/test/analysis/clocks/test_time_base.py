@@ -239,5 +239,21 @@ def test_stamps_that_are_no_time_base_are_refused():
     zero = np.zeros(len(time), np.int64)
     with pytest.raises(NoClock, match="all 8000 header stamps of powertrain/imu are zero; `--time log` takes"):
         on_one_time_base(recorded(sensor(time), sensor(time, 0.5, stamp=zero)))
-    with pytest.raises(NoClock, match=r"stamps of chassis/imu do not go on: 7999 steps, 7992 of 0 ms, 7 of 1000"):
-        on_one_time_base(both(time, np.ceil(time), logged=False))
+    for logged in (True, False):
+        with pytest.raises(NoClock, match=r"stamps of chassis/imu do not go on: 7999 steps, 7992 of 0 ms, 7 of 1000"):
+            on_one_time_base(both(time, np.ceil(time), logged=logged))
+        with pytest.raises(NoClock, match=r"stamps of chassis/imu do not go on: 7999 steps, 7999 of 0 ms"):
+            on_one_time_base(both(time, np.full(len(time), 5.0), logged=logged))
+
+
+@pytest.mark.property
+@LOGGED
+def test_single_wild_stamps(logged):
+    """Ten of 20000 that are a day ahead: the rest counts as it stands; without other times they are lost samples."""
+    time = times(1000.0, 20.0)
+    wild = np.arange(2100, 2130)
+    told = time.copy()
+    told[wild[::3]] += 86400.0
+    found = analyse(both(time, told, logged=logged))
+    require_right(found, 1000.0)
+    assert found.duration == pytest.approx(20.0) and found.measured > 15.0

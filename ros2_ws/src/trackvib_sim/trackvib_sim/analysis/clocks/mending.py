@@ -16,6 +16,7 @@ EVEN = 0.01  # of a period, by which steps of even stamps may differ from it
 PAUSE = 0.5  # s without a sample, after which the count begins anew
 OUTLIER = 5.0  # standard deviations
 LEAST_SAMPLES = 8
+LEAST_SPAN = 0.1  # of the recorder's time, that stamps must reach over when jumps are taken back
 WITHIN = 64  # samples to either side of a small jump, over which its size is taken
 
 
@@ -78,6 +79,8 @@ def mend(stamp, logged, force, name):
     order, stamp, logged = order[~apart], stamp[~apart], None if logged is None else logged[~apart]
     settings = find_settings(stamp, logged, rough)
     told, stamp = stamp, without_settings(stamp, settings)
+    if logged is not None and np.ptp(stamp) < LEAST_SPAN * np.ptp(logged):
+        raise NoClock(f"stamps of {name} do not go on: {in_steps(told)}")
     disordered = np.zeros(len(stamp), bool)
     mended, kept = np.empty(len(stamp), np.int64), np.ones(len(stamp), bool)
     parts, small = [], []

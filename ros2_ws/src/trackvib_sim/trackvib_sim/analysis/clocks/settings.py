@@ -30,8 +30,15 @@ def standing_apart(stamp, logged, period):
     if not (jump[unexplained] < 0).any():  # else any other jump may be the first half of that
         unexplained &= jump > APART * NANO
     edges = np.concatenate(([0], places[unexplained], [len(stamp)]))
-    few = np.diff(edges) < SHORT * NANO / period
-    return np.repeat(few & (len(edges) > 2), np.diff(edges))
+    sizes = np.diff(edges)
+    if len(sizes) == 1:
+        return np.zeros(len(stamp), bool)
+    # by how much the clock is ahead of an even one in each part; where most samples are is right
+    ahead = stamp[edges[:-1]] - np.round(period * edges[:-1]).astype(np.int64)
+    by_size = np.argsort(ahead)
+    usual = ahead[by_size][np.searchsorted(np.cumsum(sizes[by_size]), 0.5 * len(stamp))]
+    few = (sizes < SHORT * NANO / period) & (np.abs(ahead - usual) > max(LEAST * NANO, PERIODS * period))
+    return np.repeat(few, sizes)
 
 
 def find_settings(stamp, logged, period):
