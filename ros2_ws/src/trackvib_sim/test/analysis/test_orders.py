@@ -86,10 +86,7 @@ def test_orders_stand_out_of_noise_and_do_not_need_a_whole_bag():
     noise = 0.2
     made = made_recording(MILLISECONDS, accelerations(turns_of(MILLISECONDS / 1e3), noise=noise))
     kept = np.flatnonzero((MILLISECONDS < 9000) | (MILLISECONDS > 9500))
-    cut = {
-        sensor: type(made.chassis)(*(column[kept] for column in getattr(made, sensor)))
-        for sensor in ("chassis", "powertrain")
-    }
+    cut = {sensor: getattr(made, sensor).at(kept) for sensor in ("chassis", "powertrain")}
     found = analyse(driven(made, speed_up, run_up)._replace(**cut))
     assert found.timing["chassis/imu"].gap_count == 1
     for level in found.order_levels:
@@ -139,10 +136,7 @@ def test_odd_drives_do_no_harm(recording):
     acceleration[15_000, 0] = np.nan
     holed = recording._replace(chassis=recording.chassis._replace(specific_force=acceleration))
     assert len(analyse(holed).order_levels) > 30
-    slow = {
-        sensor: type(recording.chassis)(*(column[9::10] for column in getattr(recording, sensor)))
-        for sensor in ("chassis", "powertrain")
-    }
+    slow = {sensor: getattr(recording, sensor).at(slice(9, None, 10)) for sensor in ("chassis", "powertrain")}
     spectra = analyse(recording._replace(mounts=None, answers=None, **slow)).order_spectra
     told = np.isfinite(spectra.psd["chassis"][:, :, 2])
     assert spectra.order[told.any(axis=0)].max() * spectra.engine_speed[told.any(axis=1)].min() / 60.0 < 100.0

@@ -9,7 +9,6 @@ from pyarrow import parquet
 from trackvib_sim.analysis.absorbed_power import absorbed_by_frequency
 from trackvib_sim.analysis.analyse import analyse
 from trackvib_sim.analysis.bag_tables import write_tables
-from trackvib_sim.bags.recording import Inertial
 
 from .made_recordings import driven, made_recording
 
@@ -124,8 +123,7 @@ def test_further_sensors_have_numbers_at_their_own_rate(recording):
     """A seat at 500 Hz has all of them; one at 100 Hz levels, but nothing weighted; one of two samples none."""
     seats = {}
     for name, step in (("seat", 2), ("slow", 10), ("short", 15_000)):
-        columns = (column[step - 1 :: step] for column in recording.chassis)
-        seats[name] = Inertial(*columns)
+        seats[name] = recording.chassis.at(slice(step - 1, None, step))
     found = analyse(recording._replace(sensors=seats))
     assert list(found.sensors) == ["chassis", "powertrain", "seat", "slow"]
     chassis, seat, slow = (found.sensors[name]["z"] for name in ("chassis", "seat", "slow"))

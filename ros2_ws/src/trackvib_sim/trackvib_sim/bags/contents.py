@@ -8,7 +8,7 @@ from mcap.writer import MCAP0_MAGIC
 from zstandard import ZstdError
 
 from .errors import BagError
-from .files import bag_files
+from .files import find_files
 from .limits import TooLarge
 from .mcap_summary import full_summary
 from .metadata import channels
@@ -27,6 +27,7 @@ class Contents(NamedTuple):
     counts: Counter  # topic -> messages
     provenance: list  # names of metadata records
     attachments: list  # names
+    notes: tuple  # sentences: which files of the folder were left out
 
 
 def contents(path):
@@ -37,7 +38,8 @@ def contents(path):
     BagError
         It is no bag, was cut short, or cannot be read.
     """
-    files = bag_files(path)
+    found = find_files(path)
+    files = found.files
     summaries = [_summary(file) for file in files]
     types, counts = {}, Counter()
     for summary in summaries:
@@ -55,6 +57,7 @@ def contents(path):
         counts=counts,
         provenance=[index.name for summary in summaries for index in summary.metadata_indexes],
         attachments=[index.name for summary in summaries for index in summary.attachment_indexes],
+        notes=found.notes,
     )
 
 

@@ -17,7 +17,7 @@ from ..numerics.units import NANO
 from .columns import Columns, Topic
 from .definitions import Definition
 from .errors import BagError
-from .files import bag_files
+from .files import find_files
 from .limits import TooLarge
 from .mcap_records import DAMAGE
 from .mcap_walk import Walk
@@ -26,11 +26,18 @@ from .raw_messages import NO_SCHEMA
 from .recording import Answers, Commands, Drive, Inertial, LoopCounts, Mounts, Odometry, Recording
 from .unfolding import unfold_messages
 
-_SENSOR = Columns(topics.IMU_TYPE, Inertial, {
-    "stamp": "header.stamp",
-    "specific_force": ("linear_acceleration", (3,)),
-    "angular_velocity": ("angular_velocity", (3,)),
-})  # fmt: skip
+_SENSOR = Columns(
+    topics.IMU_TYPE,
+    Inertial,
+    {
+        "stamp": "header.stamp",
+        "specific_force": ("linear_acceleration", (3,)),
+        "angular_velocity": ("angular_velocity", (3,)),
+    },
+    first={"covariance": ("linear_acceleration_covariance", (9,))},
+    logged="logged",
+)
+HEADER_TIME, LOG_TIME = TIMES = ("header", "log")  # that may be the time base
 _NUMBERS = {name: (name, (-1,)) for name in ("current", "stiffness", "damping")}
 _VECTORS = {name: (name, (-1, 3)) for name in ("deflection", "velocity", "force")}
 _DRIVE = ("distance", "offset", "wanted_speed", "curvature", "engine_speed", "gear")
@@ -74,7 +81,11 @@ _READ_ERRORS = (
 )  # fmt: skip
 
 
-def read_recording(path: str | Path, on_progress: Callable[[int, int], None] = lambda done, total: None) -> Recording:
+def read_recording(
+    path: str | Path,
+    on_progress: Callable[[int, int], None] = lambda done, total: None,
+    time: str = HEADER_TIME,
+) -> Recording:
     """Return the `Recording` in a bag, a folder with MCAP files or one such file, as far as it goes.
 
     Topics are found by the ends of their names. Of several that end alike the one beside the sensors counts.
@@ -84,6 +95,8 @@ def read_recording(path: str | Path, on_progress: Callable[[int, int], None] = l
     path : path
     on_progress : callable
         Is told now and then how many bytes of how many have been read.
+    time : str
+        Which times are the stamps: "header", those in the messages, or "log", those at which they were recorded.
 
     Raises
     ------
@@ -99,8 +112,9 @@ def read_recording(path: str | Path, on_progress: Callable[[int, int], None] = l
     >>> recording.chassis.specific_force.shape[1], recording.complete
     (3, True)
     """
-    path, reading = Path(path), _Reading()
-    files = bag_files(path)
+    path, reading = Path(path), _Reading(by_log=time == LOG_TIME)
+    found = find_files(path)
+    files = found.files
     try:
         total, done = sum(file.stat().st_size for file in files), 0
         for file in files:
@@ -112,13 +126,15 @@ def read_recording(path: str | Path, on_progress: Callable[[int, int], None] = l
     except _READ_ERRORS as error:
         raise BagError(f"bag {str(path)!r} cannot be read: {str(error) or type(error).__name__}") from None
     on_progress(total, total)
-    return recording
+    by_log = ("stamps are the times at which messages were recorded",) if time == LOG_TIME else ()
+    return recording._replace(notes=(*found.notes, *by_log))
 
 
 class _Reading:
     """What has been read of a bag."""
 
-    def __init__(self):
+    def __init__(self, by_log):
+        self._by_log = by_log
         self._columns, self._further, self._roads, self._texts, self._mountings = {}, {}, {}, {}, {}  # by topic
         self._loop_counts, self._diagnostics, self._ros_1 = [], {}, set()
         self._provenance, self._counts, self._complete = {}, Counter(), True
@@ -153,20 +169,22 @@ class _Reading:
                         if schema.id not in definitions:
                             definitions[schema.id] = Definition(schema.name, schema.encoding, schema.data)
                         messages = unfold_messages(part.data, start, size)
-                        self._take(channel.topic, end, definitions[schema.id], *messages)
+                        logged = part.messages.head["log_time"][of_channel].astype(np.int64)
+                        self._take(channel.topic, end, definitions[schema.id], *messages, logged)
                 on_progress(part.end)
             _require_undamaged(walk)
             self._complete &= walk.complete
 
-    def _take(self, topic, end, definition, data, start, size):
+    def _take(self, topic, end, definition, data, start, size, logged):
         if end in COLUMNS:
             if topic not in self._columns:
-                self._columns[topic] = Topic(COLUMNS[end])
-            self._columns[topic].add(definition.kind, data, start, size)
+                self._columns[topic] = Topic(COLUMNS[end], self._by_log)
+            self._columns[topic].add(definition.kind, data, start, size, logged)
             return
         if end == _FURTHER:
             if len(self._further) < _MOST_FURTHER:
-                self._further.setdefault(topic, Topic(_SENSOR)).add(definition.kind, data, start, size)
+                further = self._further.setdefault(topic, Topic(_SENSOR, self._by_log))
+                further.add(definition.kind, data, start, size, logged)
             return
         for first, length in zip(start.tolist(), size.tolist(), strict=True):
             message = definition.message(data[first : first + length].data)

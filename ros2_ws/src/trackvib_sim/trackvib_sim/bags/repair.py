@@ -14,7 +14,7 @@ from zstandard import ZstdError
 from ..new_files import new_file, set_aside
 from ..yaml_text import YamlTextError, load, read_text
 from .errors import BagError
-from .files import bag_files, unfolded
+from .files import find_files, unfolded
 from .limits import TooLarge
 from .mcap_summary import examine, summary_of
 from .mcap_walk import Walk
@@ -23,6 +23,7 @@ from .opening import opened
 from .raw_messages import NO_SCHEMA, RawMessage, walked_records
 from .writing import CHUNK, LIBRARY
 
+NO_MCAP = "empty or no MCAP"  # flaw of a split that is set aside
 _TELL = 1000  # records between two calls of `told`
 
 
@@ -48,8 +49,9 @@ class Repair(NamedTuple):
 def repair(path, told=lambda done, size: None):
     """Complete a bag folder without losing a whole message; returns a `Repair`.
 
-    What is damaged is written anew beside, and kept under its name with `.damaged` behind; what is sound is not
-    touched. `told(done, size)` is called now and then with the bytes that are done of a file.
+    A split that is empty or no MCAP is set aside where others are left. What is damaged is written anew beside, and
+    kept under its name with `.damaged` behind; what is sound is not touched. `told(done, size)` is called now and then
+    with the bytes that are done of a file.
 
     Raises
     ------
@@ -58,8 +60,8 @@ def repair(path, told=lambda done, size: None):
     """
     path = Path(path)
     try:
-        files = bag_files(path)
-        done, found = [], {}
+        files, _, _, unreadable = find_files(path)
+        done, found = [RepairedFile(file, NO_MCAP, 0, None, [], 0, set_aside(file)) for file in unreadable], {}
         for file in files:
             repaired, findings = _repair_file(file, told)
             done += [repaired] if repaired else []

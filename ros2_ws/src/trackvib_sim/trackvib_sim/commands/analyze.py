@@ -10,7 +10,9 @@ from rich.table import Table
 
 from ..analysis.analyse import analyse
 from ..analysis.bag_tables import write_tables
+from ..analysis.clocks.time_base import on_one_time_base
 from ..analysis.levels import WEIGHTINGS
+from ..analysis.measured import in_unit
 from ..analysis.numbers import AXES, SENSORS
 from ..analysis.report.page import write_report
 from ..analysis.report.report_data import build_report_data
@@ -20,7 +22,7 @@ from ..console import Description, Terminal
 from .result_folder import CommandError, all_or_nothing
 
 
-def run_analyze(bags, settle, interval, speed_band, out):
+def run_analyze(bags, settle, interval, speed_band, out, time, unit):
     """Analyse some bags; see `analyze_cli`.
 
     Raises
@@ -36,8 +38,9 @@ def run_analyze(bags, settle, interval, speed_band, out):
         analyses, report_data_list = [], []
         with _progress(console) as progress:
             for bag in bags:
-                recording = read_recording(bag, _reporter(progress, f"reading {bag}"))
+                recording = read_recording(bag, _reporter(progress, f"reading {bag}"), time)
                 try:
+                    recording = on_one_time_base(in_unit(recording, unit))
                     reporter = _reporter(progress, f"measuring {bag}")
                     analyses.append(analyse(recording, settle, reporter, interval, speed_band))
                     report_data_list.append(build_report_data(recording, analyses[-1]))
@@ -85,11 +88,9 @@ def _levels(analyses):
     for analysis in _sections(table, analyses, "sensors"):
         for sensor, axes in analysis.sensors.items():
             for axis, n in axes.items():
-                weighted = f"{WEIGHTINGS[AXES.index(axis)]} {n.rms_weighted:.3f}"
+                weighted = f"{WEIGHTINGS[AXES.index(axis)]} {_told(n.rms_weighted)}"
                 rest = (n.crest_factor, n.mtvv, n.vdv, *((analysis.absorbed_power[sensor],) if axis == "z" else ()))
-                table.add_row(
-                    f"{sensor} {axis}", f"{n.rms:.3f}", f"{n.peak:.3f}", weighted, *map("{:.3f}".format, rest)
-                )
+                table.add_row(f"{sensor} {axis}", _told(n.rms), _told(n.peak), weighted, *map(_told, rest))
     return table
 
 
@@ -103,7 +104,7 @@ def _speeds(analyses):
             levels = (number for sensor in SENSORS for number in (band.rms[sensor]["z"], band.absorbed_power[sensor]))
             engine = "" if isnan(band.engine_speed) else f"{band.engine_speed:.0f}"
             words = f"{band.low:g} to {band.high:g}", f"{band.measured:.1f}", engine
-            table.add_row(*words, *(f"{level:.3f}" for level in levels))
+            table.add_row(*words, *map(_told, levels))
     return table
 
 
@@ -115,7 +116,7 @@ def _lines(analyses):
         for line in analysis.lines:
             names = (line.name, f"{line.frequency:.1f}")
             for sensor, axes in line.rms.items():
-                table.add_row(*names, sensor, *(f"{level:.3f}" for level in axes.values()))
+                table.add_row(*names, sensor, *map(_told, axes.values()))
                 names = ("", "")
     return table
 
@@ -132,6 +133,10 @@ def _mounts(analyses):
                        current.mean, current.least, current.greatest)  # fmt: skip
             table.add_row(name, *(f"{each:.2f}" for each in numbers))
     return table
+
+
+def _told(level):
+    return "-" if isnan(level) else f"{level:.3f}"
 
 
 def _sections(table, analyses, name):

@@ -5,7 +5,7 @@ from rich.progress import Progress
 from rich.table import Table
 
 from ..bags.contents import contents
-from ..bags.repair import repair
+from ..bags.repair import NO_MCAP, repair
 from ..console import Terminal
 from ..numerics.units import NANO
 
@@ -25,6 +25,7 @@ def run_info(path):
         f"{found.counts.total()} messages from {found.first / NANO:.3f} to {found.last / NANO:.3f} s",
         f"{found.size / 1e6:.1f} MB in {', '.join(file.name for file in found.files)}; compression "
         f"{', '.join(sorted(found.compression)) or 'none'}",
+        *found.notes,
         f"provenance: {', '.join(map(shortened, found.provenance)) or 'none'}",
         f"attachments: {', '.join(map(shortened, found.attachments)) or 'none'}",
     ):
@@ -49,6 +50,9 @@ def run_repair(path):
 def _words(file):
     """Yield what became of a `RepairedFile`, line by line."""
     yield f"{file.file}: was {file.flaw}"
+    if file.flaw == NO_MCAP:
+        yield f"  set aside as {file.original.name}"
+        return
     for damage in file.damage[:_MOST_DAMAGE]:
         yield f"  {damage}"
     if len(file.damage) > _MOST_DAMAGE:
