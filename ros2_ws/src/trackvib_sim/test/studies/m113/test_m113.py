@@ -60,7 +60,7 @@ def test_rough_road_at_ten_metres_a_second_agrees(m113, rough_ten):
     The reference measured 25 to 27 kN left and 3.7 to 4.5 kN right.
     """
     assert all(result.status == GOOD for result in rough_ten.values())
-    rows = {row.quantity: row for row in table_rows(rough_ten, m113.tracks.pitch)}
+    rows = {row.quantity: row for row in table_rows(rough_ten, m113)}
     assert rows[band_name(*HIGH)].agrees
     assert all(rows[octave_name(centre)].agrees for centre in (*THIRD_OCTAVES[1:3], *THIRD_OCTAVES[4:]))
     assert rows[CORRELATION].ours > 0.7
@@ -83,7 +83,7 @@ def test_wheels_carry_what_statics_of_the_reference_give(m113):
 @pytest.mark.property
 def test_table_has_every_quantity_of_a_case(rough_ten, m113):
     """Levels, correlation and forces, one row each, as text of a CSV file."""
-    rows = table_rows(rough_ten, m113.tracks.pitch)
+    rows = table_rows(rough_ten, m113)
     assert len(rows) == len({row.quantity for row in rows}) == len(next(iter(rough_ten.values())).numbers)
     assert len(table_csv(rows).splitlines()) == 1 + len(rows)
 
