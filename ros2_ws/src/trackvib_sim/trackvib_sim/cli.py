@@ -17,6 +17,7 @@ from .commands.option_types import INTERRUPTED, FiniteRange, known_law, vehicle_
 from .commands.replay_cli import replay
 from .commands.road_cli import road
 from .commands.study_cli import study
+from .vehicle.drive.limits import FASTEST
 
 
 class _Verbs(click.Group):
@@ -74,7 +75,7 @@ def _interrupt():
 )
 @click.option(
     "--speed",
-    type=FiniteRange(-25.0, 25.0),
+    type=FiniteRange(-FASTEST, FASTEST),
     default=10.0,
     show_default=True,
     help="Speed in m/s; below 0 backwards.",

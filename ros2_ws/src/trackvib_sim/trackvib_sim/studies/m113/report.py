@@ -68,8 +68,8 @@ def _phases(rows):
     lines = [
         "## Lines over the phases",
         "",
-        "Ours from the least to the greatest run / theirs, which is one run with one phase; **bold** where theirs is not",
-        "among ours.",
+        "Ours from the least to the greatest run / theirs, which is one run with one phase; **bold** where theirs is",
+        "not among ours.",
         "",
         *_header("", *(f"{road}, {speed} m/s" for road, speed in cases)),
     ]

@@ -84,9 +84,7 @@ def _print(console, rows, loads, failed, folder):
     by_place = {(row.quantity, row.road, row.speed): row for row in mine}
     cells = {name: [_cell(by_place.get((name, *head))) for head in heads] for name in names}
     _print_cases(console, title, heads, cells)
-    title = (
-        "Lines over the phases, ours from the least run to the greatest / theirs; ! is where theirs is not among them"
-    )
+    title = "Lines over the phases, ours from the least run to the greatest / theirs; ! is where theirs lies outside"
     lines = {name: [range_cell(by_place[(name, *head)], "{} !") for head in heads] for name in map(line_name, LINES)}
     _print_cases(console, title, heads, lines)
     factors = ", ".join(f"{each:.2f}" for each in (loads[0] / loads[1]).ravel())
