@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from hypothesis import strategies as st
 from trackvib_sim.vehicle.drive.drive_file import DriveFileError, drive_text, parse_drive
 from trackvib_sim.vehicle.drive.schedule import (
     Schedule,
