@@ -122,12 +122,12 @@ def test_standing_the_reference_shakes_less_than_rolling():
 
 @pytest.mark.cross_engine
 def test_wheels_carry_what_statics_of_the_reference_give(m113):
-    """Together to 1 %, most within 3 %; those at the ends of the taut track and beside them within 10 %."""
+    """Together to 1 %, most within 5 %; those at the end of the taut track and on the slack one within 15 %."""
     ours, theirs = standing_wheel_loads(m113), reference_wheel_loads()
     factor = ours / theirs
     assert ours.sum() == pytest.approx(theirs.sum(), rel=0.01)
-    assert np.abs(factor - 1.0).max() < 0.1
-    assert (np.abs(factor - 1.0) < 0.03).sum() >= 6
+    assert np.abs(factor - 1.0).max() < 0.15
+    assert (np.abs(factor - 1.0) < 0.05).sum() >= 8
 
 
 @pytest.mark.slow(reason="a whole drive")

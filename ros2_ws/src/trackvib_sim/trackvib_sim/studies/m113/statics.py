@@ -34,7 +34,6 @@ RIM, GROUND = (
 )  # N/m^1.5 of contacts after Hertz: eight a wheel, four corners of each of two shoes
 TENSION = (13.0e3, 2.05e3)  # N, half of what was measured at the tensioners
 SETTLING = 2000  # periods in which our vehicle comes to rest
-CALMING = 1.0  # N m s/rad
 
 
 def reference_wheel_loads():
@@ -104,12 +103,7 @@ def reference_ride_frequencies():
 
 
 def standing_wheel_loads(vehicle):
-    """Return what a standing vehicle's wheels put on their arms, (2, stations) N, as its run-in leaves it.
-
-    Its pins are damped meanwhile, which changes no statics: nothing else would bring the upper runs to rest.
-    """
-    tracks = vehicle.tracks.model_copy(update={"pin_damping": CALMING})
-    vehicle = vehicle.model_copy(update={"tracks": tracks})
+    """Return what a standing vehicle's wheels put on their arms, (2, stations) N, as its run-in leaves it."""
     simulation = Simulation(vehicle, RunSettings(Operation(0.0, 0.0, False), RATES, 0.0))
     run_open_loop(simulation, road_of(LEVEL), SETTLING)
     bars, arms = simulation.system.suspension, vehicle.swing_arms
