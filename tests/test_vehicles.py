@@ -1,6 +1,7 @@
 """Runs of other vehicles by real processes: with two coils of four, with four, with none, and backwards."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -55,7 +56,9 @@ def test_shipped_vehicles_drive(tmp_path, vehicle, coils, names):
 
 def test_four_coils_and_a_slow_sensor(tmp_path, four_coils):
     """Each mount has its own current under a law that knows them, and the seat's sensor a tenth of the samples."""
-    trackvib("run", "--vehicle", four_coils, "--law", "skyhook", "--duration", DURATION, "--out", tmp_path / "run")
+    run = ("run", "--vehicle", four_coils, "--law", "skyhook", "--duration", DURATION, "--out", tmp_path / "run")
+    printed = trackvib(*run)
+    assert all(re.search(rf"^│ {sensor} +│", printed, re.MULTILINE) for sensor in ("chassis", "powertrain", "seat"))
     recording = read_recording(tmp_path / "run" / "bag")
     current = recording.answers.current
     assert current.shape == (1000 * DURATION, 4)
@@ -67,6 +70,7 @@ def test_four_coils_and_a_slow_sensor(tmp_path, four_coils):
     assert "identical to the last bit" in trackvib("replay", tmp_path / "run" / "bag", "--verify")
     trackvib("analyze", tmp_path / "run" / "bag", "--out", tmp_path / "analysis")
     assert "rear_right" in json.dumps(json.loads((tmp_path / "analysis" / "numbers.json").read_text()))
+    assert re.search(r",\"seat\",\"z\",\"rms\",\d", (tmp_path / "analysis" / "numbers.csv").read_text())
 
 
 def test_backwards(tmp_path):

@@ -13,6 +13,8 @@ pytestmark = pytest.mark.property
     [
         ("&a [*a]", "alias *a is not accepted"),
         ("a: &x [1]\nb: *x", "alias *x is not accepted"),
+        ("a: 1\nb: {a: 2}\na: 1", "a stands twice, in lines 1 and 3"),
+        ("{a: 1, a: 2}", "a stands twice, in lines 1 and 1"),
         ("[" * 3000, "nested too deeply, accepted are 50 levels"),
         ("{a: " * 3000, "nested too deeply"),
         ("- " * 3000, "nested too deeply"),

@@ -93,7 +93,7 @@ def _sentence(name, error, kinds):
 
 
 class _Loader(yaml.SafeLoader):
-    """PyYAML's safe one, but without aliases, depths and long numbers."""
+    """PyYAML's safe one, but without aliases, depths, long numbers and items that stand twice."""
 
     def __init__(self, stream):
         super().__init__(stream)
@@ -107,6 +107,16 @@ class _Loader(yaml.SafeLoader):
         self._depth += 1
         node = super().compose_node(parent, index)
         self._depth -= 1
+        return node
+
+    def compose_mapping_node(self, anchor):
+        node = super().compose_mapping_node(anchor)
+        before = {}
+        for key, _ in node.value:
+            first = before.setdefault((key.tag, str(key.value)), key)
+            if first is not key:
+                lines = f"{first.start_mark.line + 1} and {key.start_mark.line + 1}"
+                raise yaml.YAMLError(f"{shortened(str(key.value))} stands twice, in lines {lines}")
         return node
 
     def compose_scalar_node(self, anchor):

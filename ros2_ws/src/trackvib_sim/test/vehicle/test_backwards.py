@@ -11,11 +11,15 @@ SETTLED, MEASURED = 1000, 4000  # ms
 
 @pytest.fixture(scope="module")
 def twin():
-    """The M113 with left and right alike, so that no phase between the tracks depends on where they are laid from."""
+    """The M113 with left and right alike, so that no phase between the tracks depends on where they are laid from.
+
+    Its pins are damped, and a spring holds its shoes on the ground, so that it rolls periodically.
+    """
     vehicle = read_vehicle(find_vehicle("m113"))[0]
     arms = vehicle.swing_arms.model_copy(update={"right_wheel_x": None})
-    tracks = vehicle.tracks.model_copy(update={"links": [63.0, 63.0], "pretension": [13e3, 13e3]})
-    return vehicle.model_copy(update={"swing_arms": arms, "tracks": tracks})
+    tracks = vehicle.tracks.model_copy(update={"links": [63.0, 63.0], "pretension": [13e3, 13e3], "pin_damping": 1.0})
+    ground = vehicle.ground.model_copy(update={"shear_stiffness": 1e6, "shear_damping": 3e3})
+    return vehicle.model_copy(update={"swing_arms": arms, "tracks": tracks, "ground": ground})
 
 
 def mirrored(vehicle):

@@ -2,6 +2,7 @@
 
 import click
 
+from ..vehicle.drive.limits import FASTEST
 from .endings import fail
 from .option_types import FiniteRange, law_option, vehicle_option
 
@@ -17,7 +18,7 @@ from .option_types import FiniteRange, law_option, vehicle_option
 )
 @click.option(
     "--speed",
-    type=FiniteRange(-25.0, 25.0),
+    type=FiniteRange(-FASTEST, FASTEST),
     default=10.0,
     show_default=True,
     help="Speed in m/s; below 0 backwards.",

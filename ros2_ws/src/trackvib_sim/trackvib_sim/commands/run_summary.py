@@ -7,7 +7,7 @@ from rich.table import Table
 
 from ..analysis.analyse import analyse
 from ..analysis.completeness import missing
-from ..analysis.numbers import AXES, SENSORS
+from ..analysis.numbers import AXES
 from ..analysis.picture_data import prepare
 from ..analysis.plots import run_picture
 from ..analysis.summary import summarise
@@ -40,8 +40,8 @@ def _print_summary(console, summary, folder):
     table.add_column("m/s²")
     for name in ("longitudinal x", "lateral y", "vertical z"):
         table.add_column(name, justify="right")
-    for sensor in SENSORS:
-        table.add_row(sensor, *(f"{summary['rms_mps2'][sensor][axis]:.3f}" for axis in AXES))
+    for sensor, rms in summary["rms_mps2"].items():
+        table.add_row(sensor, *(f"{rms[axis]:.3f}" for axis in AXES))
     console.print(table)
     loop, mounts = summary["loop"], MountEnergy(**summary["mounts_J"])
     unanswered = loop["samples"] if loop["unanswered"] is None else loop["unanswered"]  # None: not one answer came

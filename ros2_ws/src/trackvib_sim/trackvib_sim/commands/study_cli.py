@@ -6,6 +6,7 @@ from contextlib import contextmanager
 import click
 
 from ..road.classes import CLASSES
+from ..vehicle.drive.limits import FASTEST
 from .endings import INTERRUPTED, fail, say
 from .option_types import FiniteRange, Several, vehicle_option
 
@@ -46,7 +47,7 @@ def _out(default, words="Folder of the study; finished runs in it are not done a
 
 def _speeds(default):
     """The option for the speeds of a study's runs."""
-    kind = Several(FiniteRange(0.0, 25.0, min_open=True))
+    kind = Several(FiniteRange(0.0, FASTEST, min_open=True))
     words = "Speeds in m/s."
     return click.option("--speeds", type=kind, default=default, show_default=True, metavar="V,V,...", help=words)
 

@@ -55,5 +55,10 @@ def m113_histories_file() -> Path:
     return _path("m113/histories.csv.gz")
 
 
+def m113_standing_file() -> Path:
+    """Return the path of the third octaves of the M113 in Project Chrono that stands."""
+    return _path("m113/standing.csv")
+
+
 def _path(name):
     return Path(str(files(__package__) / name))

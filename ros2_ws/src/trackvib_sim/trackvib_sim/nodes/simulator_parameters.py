@@ -12,13 +12,16 @@ from ..simulation.settings import Rates, RunSettings
 from ..simulation.simulation import Simulation
 from ..vehicle.coil import usable_current
 from ..vehicle.drive.drive_file import DriveFileError, drive_text, parse_drive
+from ..vehicle.drive.limits import FASTEST
 from ..vehicle.system import Operation
 from ..vehicle.vehicle_file import VehicleFileError, parse_vehicle, read_vehicle
 
 PARAMETERS = (
     Parameter("vehicle_file", "", "Vehicle file; empty for the one that comes with the package."),
     Parameter("drive", "", "Drive file: speed, path and engine speed over time or distance. Empty for none."),
-    Parameter("speed", 10.0, "Speed to keep, where no drive file says it; below 0 backwards.", "m/s", -25.0, 25.0),
+    Parameter(
+        "speed", 10.0, "Speed to keep, where no drive file says it; below 0 backwards.", "m/s", -FASTEST, FASTEST
+    ),
     Parameter("gears", False, "Whether engine speed follows the vehicle's, through the gears of the vehicle file."),
     Parameter(
         "engine_speed",

@@ -2,13 +2,27 @@
 
 import numpy as np
 import pytest
+from scipy import signal
 from trackvib_sim.data import find_vehicle
+from trackvib_sim.road.iso8608 import SPACING
 from trackvib_sim.simulation.settings import RunSettings
 from trackvib_sim.simulation.simulation import Simulation
 from trackvib_sim.studies.case import GOOD
-from trackvib_sim.studies.m113.case import CORRELATION, RATES, TENSIONERS, M113Case, drive_m113
-from trackvib_sim.studies.m113.measures import HIGH, LINES, THIRD_OCTAVES, band_name, levels, line_name, octave_name
-from trackvib_sim.studies.m113.reference import RATE, ROUGH, references
+from trackvib_sim.studies.m113.case import CORRELATION, RATES, ROAD_SHARE, TENSIONERS, M113Case, drive_m113
+from trackvib_sim.studies.m113.measures import (
+    HIGH,
+    LINES,
+    LINES_SHARE,
+    ROAD_BORNE,
+    THIRD_OCTAVES,
+    band_name,
+    levels,
+    line_name,
+    octave_name,
+    within,
+)
+from trackvib_sim.studies.m113.reference import LEVEL, RATE, ROUGH, references, road_of, standing_octaves
+from trackvib_sim.studies.m113.road_share import road_share
 from trackvib_sim.studies.m113.statics import reference_wheel_loads, standing_wheel_loads
 from trackvib_sim.studies.m113.table import table_csv, table_rows
 from trackvib_sim.studies.m113.variants import BASE, VARIANTS
@@ -23,9 +37,9 @@ def m113():
 
 
 @pytest.fixture(scope="module")
-def rough_ten(m113):
-    """Two runs on the rough road at 10 m/s, by case."""
-    runs = [M113Case(BASE, ROUGH, 10, phase) for phase in (0.0, 0.5)]
+def rough(m113):
+    """Two runs on the rough road at 5 and at 10 m/s, by case."""
+    runs = [M113Case(BASE, ROUGH, speed, phase) for speed in (5, 10) for phase in (0.0, 0.5)]
     return {run: drive_m113(m113, run) for run in runs}
 
 
@@ -36,6 +50,7 @@ def test_levels_of_a_tone_are_its_rms_where_it_lies():
     found = levels(9.81 + 2.0 * np.sin(2.0 * np.pi * 130.0 * time), RATE, 65.0)
     for name in (band_name(*HIGH), octave_name(THIRD_OCTAVES[1]), line_name(2)):
         assert found[name] == pytest.approx(np.sqrt(2.0), rel=1e-3)
+    assert found[LINES_SHARE] == pytest.approx(1.0, rel=1e-3)
     for name in (band_name(20.0, 100.0), octave_name(THIRD_OCTAVES[2]), line_name(LINES[0])):
         assert found[name] < 1e-2
 
@@ -52,39 +67,76 @@ def test_reference_has_the_levels_that_it_was_handed_over_with(road, speed, high
     assert reference.vertical.mean() == pytest.approx(9.81, abs=0.02)
 
 
-@pytest.mark.slow(reason="a whole drive")
+@pytest.mark.slow(reason="whole drives")
 @pytest.mark.cross_engine
-def test_rough_road_at_ten_metres_a_second_agrees(m113, rough_ten):
-    """100-500 Hz within 1.15, its third octaves but 100 and 200 Hz within 1.4; the road's part; tensioners' forces.
+def test_rough_road_agrees(m113, rough):
+    """What docs/m113.md says of class C: 26 of 28 third octaves agree, and the road's part; what shakes is no line.
 
-    The reference measured 25 to 27 kN left and 3.7 to 4.5 kN right.
+    At 5 m/s the level from 100 to 500 Hz and lines agree, too, and the tensioners' forces: 25 to 27 kN were measured
+    left and 3.7 to 4.5 kN right, here to a tenth and a quarter.
     """
-    assert all(result.status == GOOD for result in rough_ten.values())
-    rows = {row.quantity: row for row in table_rows(rough_ten, m113.tracks.pitch)}
-    assert rows[band_name(*HIGH)].agrees
-    assert all(rows[octave_name(centre)].agrees for centre in (*THIRD_OCTAVES[1:3], *THIRD_OCTAVES[4:]))
-    assert rows[CORRELATION].ours > 0.7
-    left, right = (rows[name].ours for name in TENSIONERS)
-    assert left == pytest.approx(26e3, rel=0.1)
-    assert right == pytest.approx(4.1e3, rel=0.25)
+    assert all(result.status == GOOD for result in rough.values())
+    rows = {(row.quantity, row.speed): row for row in table_rows(rough, m113)}
+    assert all(rows[octave_name(centre), 5].agrees for centre in THIRD_OCTAVES[:-1])
+    assert all(rows[octave_name(centre), 10].agrees for centre in THIRD_OCTAVES)
+    for speed in (5, 10):
+        assert rows[band_name(*ROAD_BORNE), speed].factor == pytest.approx(1.0, abs=0.25)
+        assert max(rows[LINES_SHARE, speed].ours, rows[LINES_SHARE, speed].theirs) < 0.15
+        assert rows[ROAD_SHARE, speed].ours > rows[ROAD_SHARE, speed].theirs
+    assert rows[band_name(*HIGH), 5].agrees
+    assert all(rows[line_name(k), 5].agrees for k in (1, 2, 3))
+    assert rows[CORRELATION, 10].ours > 0.7
+    left, right = (rows[name, 5].ours for name in TENSIONERS)
+    assert 25e3 / 1.1 < left < 27e3 * 1.1
+    assert 3.7e3 / 1.25 < right < 4.5e3 * 1.25
+
+
+@pytest.mark.analytic
+def test_what_follows_the_road_does_and_noise_does_not():
+    """An oscillator integrated on the mean height under the stations follows the road; elsewhere it hardly does."""
+    wheel_x = np.array([[1.0, 0.0, -1.0], [1.1, 0.1, -0.9]])
+    time, natural = np.arange(8000) / RATE, 2.0 * np.pi * 3.0
+    road = road_of(ROUGH).heights(0, 4000)
+
+    def driven(first):
+        under = [np.interp(first + 10.0 * time + x, SPACING * np.arange(4000), side)
+                 for side, axles in zip(road, wheel_x, strict=True) for x in axles]  # fmt: skip
+        spring = ([0.4 * natural, natural**2], [1.0, 0.4 * natural, natural**2])
+        _, height, _ = signal.lsim(spring, np.mean(under, axis=0), time)
+        return within(RATE**2 * np.gradient(np.gradient(height))[2000:], RATE, ROAD_BORNE)
+
+    place = 50.0 + 10.0 * time[:6000]
+    assert road_share(driven(30.0), place, 10.0, wheel_x) > 0.9
+    assert road_share(driven(70.0), place, 10.0, wheel_x) < 0.25
+
+
+@pytest.mark.property
+def test_standing_the_reference_shakes_less_than_rolling():
+    """In each third octave from 100 Hz on, on level ground."""
+    for speed in (5, 10):
+        reference = references()[LEVEL, speed]
+        rolling = levels(reference.vertical, RATE, reference.speed / 0.154)
+        for centre, standing in zip(THIRD_OCTAVES, standing_octaves(), strict=True):
+            assert 0.0 < standing < rolling[octave_name(centre)]
 
 
 @pytest.mark.cross_engine
 def test_wheels_carry_what_statics_of_the_reference_give(m113):
-    """Together to 1 %, most within 3 %; those at the ends of the taut track and beside them within 10 %."""
+    """Together to 1 %, most within 5 %; those at the end of the taut track and on the slack one within 15 %."""
     ours, theirs = standing_wheel_loads(m113), reference_wheel_loads()
     factor = ours / theirs
     assert ours.sum() == pytest.approx(theirs.sum(), rel=0.01)
-    assert np.abs(factor - 1.0).max() < 0.1
-    assert (np.abs(factor - 1.0) < 0.03).sum() >= 6
+    assert np.abs(factor - 1.0).max() < 0.15
+    assert (np.abs(factor - 1.0) < 0.05).sum() >= 8
 
 
 @pytest.mark.slow(reason="a whole drive")
 @pytest.mark.property
-def test_table_has_every_quantity_of_a_case(rough_ten, m113):
-    """Levels, correlation and forces, one row each, as text of a CSV file."""
-    rows = table_rows(rough_ten, m113.tracks.pitch)
-    assert len(rows) == len({row.quantity for row in rows}) == len(next(iter(rough_ten.values())).numbers)
+def test_table_has_every_quantity_of_a_case(rough, m113):
+    """Levels, correlation and forces, one row each with the range of its runs, as text of a CSV file."""
+    rows = table_rows(rough, m113)
+    assert len(rows) == 2 * len({row.quantity for row in rows}) == 2 * len(next(iter(rough.values())).numbers)
+    assert all(row.least <= row.ours <= row.greatest for row in rows)
     assert len(table_csv(rows).splitlines()) == 1 + len(rows)
 
 

@@ -2,30 +2,14 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from trackvib_sim.vehicle.drive.drive_file import DriveFileError, drive_text, parse_drive
 from trackvib_sim.vehicle.drive.schedule import (
     Schedule,
     arrival_time,
-    constant_schedule,
     new_wanted,
-    scheduled,
     wanted_curvature,
     wanted_speed,
 )
-
-GROWING = st.lists(st.floats(-50.0, 50.0), min_size=1, max_size=8, unique=True).map(sorted)
-
-
-@pytest.mark.property
-@given(at=GROWING, seed=st.integers(0, 2**32 - 1), where=st.floats(-60.0, 60.0))
-@settings(max_examples=100)
-def test_between_points_a_value_is_that_of_the_straight_line(at, seed, where):
-    """As numpy interpolates, beyond the ends as at them."""
-    at, values = np.array(at), np.random.default_rng(seed).normal(size=len(at))
-    schedule = constant_schedule(1.0, 0.0)._replace(at=at)
-    assert scheduled(schedule, values, where) == pytest.approx(np.interp(where, at, values), rel=1e-12, abs=1e-12)
 
 
 @pytest.mark.analytic

@@ -12,11 +12,12 @@ from ...vehicle.sensors import sensors_of
 from ...vehicle.system import Operation
 from ..case import GOOD
 from .measures import ROAD_BORNE, levels, within
-from .reference import RATE, references, road_of
+from .reference import RATE, ROUGH, references, road_of
+from .road_share import road_share
 from .variants import VARIANTS
 
 RATES = Rates(physics=20_000, control=RATE, odometry=100)
-CORRELATION, RESISTANCE = "correlation", "resistance"
+CORRELATION, ROAD_SHARE, RESISTANCE = "correlation", "follows the road", "resistance"
 TENSIONERS = ("left tensioner", "right tensioner")
 _STEP = 0.1  # m between samples of the road-borne part
 
@@ -55,6 +56,8 @@ def drive_m113(vehicle, case):
     grid = places(reference)
     ours = np.interp(grid, place, within(vertical, RATE, ROAD_BORNE))
     numbers[CORRELATION] = float(np.corrcoef(ours, road_borne(reference))[0, 1])
+    if case.road == ROUGH:
+        numbers[ROAD_SHARE] = road_share(within(vertical, RATE, ROAD_BORNE), place, reference.speed, wheel_x(vehicle))
     numbers |= dict(zip((*TENSIONERS, RESISTANCE), forces.mean(axis=0).tolist(), strict=True))
     return M113Result(GOOD, numbers, ours.round(4).tolist())
 
@@ -67,6 +70,12 @@ def places(reference):
 def road_borne(reference):
     """Return the reference's part of the acceleration within `ROAD_BORNE` at `places`, (g,) m/s^2."""
     return np.interp(places(reference), reference.place, within(reference.vertical, RATE, ROAD_BORNE))
+
+
+def wheel_x(vehicle):
+    """Return the places of the axles along the hull, (2, n) m, left and right."""
+    arms = vehicle.swing_arms
+    return np.array([arms.wheel_x, arms.right_wheel_x])
 
 
 def _drive(simulation, road, reference):

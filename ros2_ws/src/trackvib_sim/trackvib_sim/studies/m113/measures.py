@@ -8,6 +8,7 @@ ROAD_BORNE, HIGH = BANDS[0], BANDS[3]
 THIRD_OCTAVES = tuple(10.0 ** (k / 10.0) for k in range(20, 27))  # centres from 100 to 400 Hz
 LINES = (1, 2, 3, 4)
 HALF_LINE = 1.5  # Hz on either side of k v/p
+LINES_SHARE = "share of lines"
 
 
 def band_name(low, high):
@@ -29,7 +30,8 @@ def levels(vertical, rate, passing):
     """Return the RMS values of a history (k,) [m/s^2] by name.
 
     `rate` [Hz] is that of its samples, `passing` [Hz] that at which links pass, v/p. Bands are parts of the sum of all
-    squares, third octaves and lines those under a Hann window.
+    squares, third octaves and lines those under a Hann window. `LINES_SHARE` is the part of the mean square in `HIGH`
+    that all its lines make; noise without lines has twice `HALF_LINE` over `passing` there.
     """
     frequency = np.fft.rfftfreq(len(vertical), 1.0 / rate)
     plain, hann = (_power(vertical, window) for window in ("boxcar", "hann"))
@@ -40,7 +42,10 @@ def levels(vertical, rate, passing):
     found = {band_name(*band): level(plain, *band) for band in BANDS}
     step = 10.0**0.05
     found |= {octave_name(centre): level(hann, centre / step, centre * step) for centre in THIRD_OCTAVES}
-    return found | {line_name(k): level(hann, k * passing - HALF_LINE, k * passing + HALF_LINE) for k in LINES}
+    found |= {line_name(k): level(hann, k * passing - HALF_LINE, k * passing + HALF_LINE) for k in LINES}
+    high = (HIGH[0] <= frequency) & (frequency < HIGH[1])
+    lines = high & (np.abs(frequency - passing * np.round(frequency / passing)) < HALF_LINE)
+    return found | {LINES_SHARE: float(hann[lines].sum() / hann[high].sum())}
 
 
 def _power(vertical, window):

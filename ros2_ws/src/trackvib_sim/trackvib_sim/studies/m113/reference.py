@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...data import m113_histories_file
+from ...data import m113_histories_file, m113_standing_file
 from ...road.iso8608 import SPACING, Exponential, Iso8608Road
 from ...road.obstacles import LevelRoad
 
@@ -18,6 +18,7 @@ LEVEL, ROUGH = "level", "C"
 RATE = 1000  # means a second
 _ROADS = {ROUGH: Iso8608Road("C", 1, 2.0, 8.0, Exponential(1.4))}  # the very road that the code was given, to 5e-6 m
 _HEAD, _CASES = 2, 4  # lines
+_STANDING_HEAD = 2
 
 
 class Reference(NamedTuple):
@@ -56,3 +57,9 @@ def references():
         for (road, speed, start), column in zip(heads, values.T, strict=True)
     ]
     return {(each.road, round(each.speed)): each for each in found}
+
+
+@cache
+def standing_octaves():
+    """Return the RMS values [m/s^2] in the third octaves of `measures.THIRD_OCTAVES` while the vehicle stands."""
+    return tuple(np.loadtxt(m113_standing_file(), delimiter=",", skiprows=_STANDING_HEAD)[:, 1].tolist())

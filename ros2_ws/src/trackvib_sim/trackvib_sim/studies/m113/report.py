@@ -1,7 +1,8 @@
 """The Markdown report of the M113 study."""
 
-from .case import CORRELATION, RESISTANCE, TENSIONERS
-from .measures import BANDS, LINES, THIRD_OCTAVES, band_name, line_name, octave_name
+from .case import CORRELATION, RESISTANCE, ROAD_SHARE, TENSIONERS
+from .measures import BANDS, LINES, LINES_SHARE, THIRD_OCTAVES, band_name, line_name, octave_name
+from .reference import LEVEL, standing_octaves
 from .table import CORRELATION_GOAL, FACTORS, GOALS, LOAD_GOAL, ROAD_BORNE_GOAL, variant_factors
 from .variants import BASE, VARIANTS
 
@@ -22,7 +23,8 @@ def report(rows, loads, frequencies, phases):
         Runs a case.
     """
     mine = [row for row in rows if row.variant == BASE]
-    parts = [_head(phases), _levels(mine), _sides(mine), _loads(*loads), _ride(frequencies), _variants(rows)]
+    parts = [_head(phases), _levels(mine), _phases(mine), _standing(mine), _sides(mine), _loads(*loads)]
+    parts += [_ride(frequencies), _variants(rows)]
     return "\n".join(parts)
 
 
@@ -45,8 +47,8 @@ The bands from 5 to 100 Hz, and all below 20 Hz on level ground, are no goals: t
 
 def _levels(rows):
     cases = list(dict.fromkeys((row.road, row.speed) for row in rows))
-    names = [*(band_name(*band) for band in BANDS), CORRELATION, *map(octave_name, THIRD_OCTAVES)]
-    names += [line_name(k) for k in LINES]
+    names = [*(band_name(*band) for band in BANDS), CORRELATION, ROAD_SHARE, *map(octave_name, THIRD_OCTAVES)]
+    names += [*(line_name(k) for k in LINES), LINES_SHARE]
     lines = ["## Levels", "", *_header("", *(f"{road}, {speed} m/s" for road, speed in cases))]
     by_place = {(row.quantity, row.road, row.speed): row for row in rows}
     lines += [_line(name, *(_cell(by_place.get((name, *case))) for case in cases)) for name in names]
@@ -58,6 +60,45 @@ def _cell(row):
         return ""
     text = f"{row.ours:.2f}" if row.theirs is None else f"{row.ours:.2f} / {row.theirs:.2f} ({row.factor:.2f})"
     return f"**{text}**" if row.agrees is False else text
+
+
+def _phases(rows):
+    cases = list(dict.fromkeys((row.road, row.speed) for row in rows))
+    by_place = {(row.quantity, row.road, row.speed): row for row in rows}
+    lines = [
+        "## Lines over the phases",
+        "",
+        "Ours from the least to the greatest run / theirs, which is one run with one phase; **bold** where theirs is",
+        "not among ours.",
+        "",
+        *_header("", *(f"{road}, {speed} m/s" for road, speed in cases)),
+    ]
+    for name in map(line_name, LINES):
+        cells = (range_cell(by_place[(name, *case)], "**{}**") for case in cases)
+        lines.append(_line(name, *cells))
+    return "\n".join(lines) + "\n"
+
+
+def range_cell(row, outside):
+    """Return a row's range and the reference's value as text, formatted by `outside` where it is not in the range."""
+    text = f"{row.least:.2f} to {row.greatest:.2f} / {row.theirs:.2f}"
+    return text if row.covers else outside.format(text)
+
+
+def _standing(rows):
+    rolling = {(row.quantity, row.speed): row.theirs for row in rows if row.road == LEVEL}
+    speeds = sorted({speed for _, speed in rolling})
+    lines = [
+        "## What theirs shakes by as it stands",
+        "",
+        "Third octaves standing, m/s², and what part of the mean square on level ground that is.",
+        "",
+        *_header("Hz", "standing", *(f"of {LEVEL}, {speed} m/s" for speed in speeds)),
+    ]
+    for centre, standing in zip(THIRD_OCTAVES, standing_octaves(), strict=True):
+        parts = (f"{(standing / rolling[(octave_name(centre), speed)]) ** 2:.0%}" for speed in speeds)
+        lines.append(_line(f"{centre:.0f}", f"{standing:.2f}", *parts))
+    return "\n".join(lines) + "\n"
 
 
 def _sides(rows):

@@ -13,10 +13,11 @@ from ...vehicle.system import Operation, build_system
 from ...vehicle.vehicle_file import read_vehicle
 from ..case_store import CaseStore
 from ..run_missing import run_shown
-from .case import RATES, M113Case, M113Result, drive_m113
+from .case import RATES, ROAD_SHARE, M113Case, M113Result, drive_m113
+from .measures import LINES, LINES_SHARE, line_name
 from .picture import m113_picture
 from .reference import references
-from .report import report
+from .report import range_cell, report
 from .statics import reference_ride_frequencies, reference_wheel_loads, standing_wheel_loads
 from .table import FACTORS, failures, table_csv, table_rows, variant_factors
 from .variants import BASE, VARIANTS
@@ -44,7 +45,7 @@ def run_m113(phases, scheduler, out):
     folder, console = Path(out), Terminal()
     store = CaseStore(folder / "cases", text, M113Case, M113Result)
     found = run_shown(vehicle, cases(phases), store, folder, console, scheduler, drive_m113)
-    rows = table_rows(found, vehicle.tracks.pitch)
+    rows = table_rows(found, vehicle)
     loads = standing_wheel_loads(vehicle), reference_wheel_loads()
     with new_file(folder / "m113.csv") as file:
         file.write(table_csv(rows).encode())
@@ -77,16 +78,15 @@ def ride_frequencies(vehicle):
 
 def _print(console, rows, loads, failed, folder):
     mine = [row for row in rows if row.variant == BASE]
-    names = list(dict.fromkeys(row.quantity for row in mine if row.agrees is not None))
+    names = [*dict.fromkeys(row.quantity for row in mine if row.agrees is not None), ROAD_SHARE, LINES_SHARE]
     heads = list(dict.fromkeys((row.road, row.speed) for row in mine))
     title = "M113 beside Project Chrono, ours / theirs, RMS in m/s²; ! is beyond the goal"
-    table = Table("", title=title, title_justify="left")
-    for road, speed in heads:
-        table.add_column(f"{road}, {speed} m/s", justify="right")
     by_place = {(row.quantity, row.road, row.speed): row for row in mine}
-    for name in names:
-        table.add_row(name, *(_cell(by_place.get((name, *head))) for head in heads))
-    console.print(table)
+    cells = {name: [_cell(by_place.get((name, *head))) for head in heads] for name in names}
+    _print_cases(console, title, heads, cells)
+    title = "Lines over the phases, ours from the least run to the greatest / theirs; ! is where theirs lies outside"
+    lines = {name: [range_cell(by_place[(name, *head)], "{} !") for head in heads] for name in map(line_name, LINES)}
+    _print_cases(console, title, heads, lines)
     factors = ", ".join(f"{each:.2f}" for each in (loads[0] / loads[1]).ravel())
     console.print(f"static wheel loads, ours / theirs, left and right from front to rear: {factors}", soft_wrap=True)
     title = "One thing changed: levels as factors of those above, correlation as it is"
@@ -99,6 +99,15 @@ def _print(console, rows, loads, failed, folder):
     for line in failed:
         console.print(line, soft_wrap=True)
     console.print(f"left in {folder}: m113.csv, m113.md, m113.png, cases/", soft_wrap=True)
+
+
+def _print_cases(console, title, heads, cells):
+    table = Table("", title=title, title_justify="left")
+    for road, speed in heads:
+        table.add_column(f"{road}, {speed} m/s", justify="right")
+    for name, texts in cells.items():
+        table.add_row(name, *texts)
+    console.print(table)
 
 
 def _cell(row):

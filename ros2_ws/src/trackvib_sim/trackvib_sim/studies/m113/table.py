@@ -8,9 +8,10 @@ import numpy as np
 
 from ..case import GOOD
 from ..statistics import deviation
-from .case import CORRELATION, RESISTANCE, TENSIONERS
-from .measures import HIGH, ROAD_BORNE, THIRD_OCTAVES, band_name, levels, line_name, octave_name
+from .case import CORRELATION, RESISTANCE, ROAD_SHARE, TENSIONERS, wheel_x
+from .measures import HIGH, ROAD_BORNE, THIRD_OCTAVES, band_name, levels, line_name, octave_name, within
 from .reference import RATE, ROUGH, references
+from .road_share import road_share
 from .variants import BASE, VARIANTS
 
 # factors within which ours should agree with the reference, by quantity
@@ -30,6 +31,8 @@ class Row(NamedTuple):
     quantity: str
     ours: float  # quadratic mean of levels, mean of others; not a number where a run failed
     scatter: float  # standard deviation
+    least: float
+    greatest: float
     theirs: float | None  # where the reference has it
 
     @property
@@ -46,27 +49,35 @@ class Row(NamedTuple):
             return _within(self.factor, ROAD_BORNE_GOAL) if self.road == ROUGH else None
         return _within(self.factor, GOALS[self.quantity]) if self.quantity in GOALS else None
 
+    @property
+    def covers(self):
+        """Whether the reference lies among our runs."""
+        return self.least <= self.theirs <= self.greatest
+
 
 def _within(factor, goal):
     return bool(1.0 / goal <= factor <= goal)
 
 
-def table_rows(found, pitch):
-    """Return the rows of a dict of cases and results (`case.M113Case`, `case.M113Result`); pitch [m] of the track."""
+def table_rows(found, vehicle):
+    """Return the rows of a dict of cases and results (`case.M113Case`, `case.M113Result`) of a vehicle."""
     groups = {}
     for case, result in found.items():
         groups.setdefault((case.variant, case.road, case.speed), []).append(result)
     rows = []
     for (variant, road, speed), results in groups.items():
         reference = references()[road, speed]
-        theirs = levels(reference.vertical, RATE, reference.speed / pitch)
-        for quantity in (*theirs, CORRELATION, *TENSIONERS, RESISTANCE):
-            if quantity == CORRELATION and road != ROUGH:
-                continue
+        theirs = levels(reference.vertical, RATE, reference.speed / vehicle.tracks.pitch)
+        quantities = [*theirs, *TENSIONERS, RESISTANCE]
+        if road == ROUGH:
+            road_borne = within(reference.vertical, RATE, ROAD_BORNE)
+            theirs[ROAD_SHARE] = road_share(road_borne, reference.place, reference.speed, wheel_x(vehicle))
+            quantities += [CORRELATION, ROAD_SHARE]
+        for quantity in quantities:
             values = np.array([each.numbers.get(quantity, np.nan) for each in results])
             ours = np.sqrt(np.mean(values**2)) if quantity in theirs else values.mean()
-            scatter = float(deviation(values))
-            rows.append(Row(variant, road, speed, quantity, float(ours), scatter, theirs.get(quantity)))
+            spread = float(deviation(values)), float(values.min()), float(values.max())
+            rows.append(Row(variant, road, speed, quantity, float(ours), *spread, theirs.get(quantity)))
     return rows
 
 
@@ -98,12 +109,14 @@ def table_csv(rows):
     """Return rows as the text of a CSV file."""
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["variant", "road", "speed", "quantity", "ours", "ours_std", "theirs", "factor", "agrees"])
+    writer.writerow(
+        ["variant", "road", "speed", "quantity", "ours", "ours_std", "least", "greatest", "theirs", "factor", "agrees"]
+    )
     for row in rows:
         theirs, factor = ("" if each is None else f"{each:.4g}" for each in (row.theirs, row.factor))
         agrees = {None: "", True: "yes", False: "no"}[row.agrees]
         writer.writerow(
-            [row.variant, row.road, row.speed, row.quantity, f"{row.ours:.4g}", f"{row.scatter:.2g}", theirs, factor,
-             agrees]
+            [row.variant, row.road, row.speed, row.quantity, f"{row.ours:.4g}", f"{row.scatter:.2g}",
+             f"{row.least:.4g}", f"{row.greatest:.4g}", theirs, factor, agrees]
         )  # fmt: skip
     return text.getvalue()

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 _MASSES = 1.52  # how much more a cylinder of a shoe moves here, of point masses at pins, than of rigid shoes
+_SHOE = 18.02  # kg
 _RIGHT = 52e3  # N as assembled, at which the longer right track is as taut as the left one
 
 
@@ -24,10 +25,10 @@ def _with(**sections):
     return change
 
 
-def _contacts_of_hertz(vehicle):
+def _stiffer_teeth(vehicle):
     teeth = vehicle.sprocket_teeth
-    softer = {"stiffness": teeth.stiffness / _MASSES, "damping": teeth.damping / _MASSES}
-    return _with(sprocket_teeth=softer)(vehicle)
+    stiffer = {"stiffness": teeth.stiffness * _MASSES, "damping": teeth.damping * _MASSES}
+    return _with(sprocket_teeth=stiffer)(vehicle)
 
 
 BASE = "m113"
@@ -42,7 +43,16 @@ VARIANTS = {
         "arcs touched at the pins, not at the shoes' cylinders", _with(sprocket_teeth={"contacts": None})
     ),
     "equal tension": Variant("right track as taut as the left one", _with(tensioners={"force": [30e3, _RIGHT]})),
-    "softer teeth": Variant(f"teeth without the factor {_MASSES} for the lumped masses", _contacts_of_hertz),
+    "damped pins": Variant("pins with a damping of 1 N m s/rad", _with(tracks={"pin_damping": 1.0})),
+    "ground with a spring": Variant(
+        "ground that holds shoes by a spring of 1e6 N/m",
+        _with(ground={"shear_stiffness": 1e6, "shear_damping": 3000.0}),
+    ),
+    "lighter shoes": Variant(
+        f"shoes lighter by {_MASSES}, so that a cylinder moves as much as there",
+        _with(tracks={"shoe_mass": _SHOE / _MASSES}),
+    ),
+    "stiffer teeth": Variant(f"teeth stiffer by {_MASSES}, so that a contact rings as there", _stiffer_teeth),
     "softer rims": Variant(
         "two contacts a wheel instead of eight",
         _with(

@@ -2,9 +2,8 @@
 
 from math import isfinite
 
+from .limits import FASTEST
 from .path import HIGHEST_CURVATURE
-
-FASTEST = 25.0  # m/s either way, what running gear and contacts are made for
 
 
 def check_speed(speed):

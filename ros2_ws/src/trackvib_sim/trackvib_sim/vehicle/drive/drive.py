@@ -5,11 +5,12 @@ from typing import NamedTuple
 import numpy as np
 
 from ...numerics.compiled import kernel
+from ...numerics.table import interpolate
 from .driveline import Driveline, Shaft, build_driveline, crank_speed, new_shaft
 from .driver import Driver, Driving, build_driver, new_driving
 from .engine import Crank, Engine, build_engine, turn_crank
 from .path import Path, follow_path, new_path
-from .schedule import Schedule, Wanted, new_wanted, scheduled, wanted_speed
+from .schedule import Schedule, Wanted, new_wanted, wanted_speed
 
 AHEAD = 1.0  # m of path and road beyond sprockets and idlers
 
@@ -80,5 +81,5 @@ def end_drive_step(drive, state, x, y, dt):
         speed = crank_speed(drive.driveline, state.shaft)
     else:
         at = path.distance[0] if drive.schedule.by_distance else wanted.time[0]
-        speed = scheduled(drive.schedule, drive.schedule.engine_speed, at)
+        speed = interpolate(drive.schedule.at, drive.schedule.engine_speed, at)
     turn_crank(state.crank, speed, dt)

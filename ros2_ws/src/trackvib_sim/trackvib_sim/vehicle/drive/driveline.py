@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...numerics.compiled import kernel
+from ...numerics.table import interpolate
 from ...numerics.units import RPM
 
 
@@ -88,12 +89,7 @@ def crank_speed(driveline, shaft):
 def full_load(driveline, shaft):
     """Return the torque [N m] on both sprockets that the engine gives in the gear at full load."""
     speed = crank_speed(driveline, shaft)
-    i = 0
-    while i < driveline.curve_speed.size - 2 and driveline.curve_speed[i + 1] < speed:
-        i += 1
-    low, high = driveline.curve_speed[i], driveline.curve_speed[i + 1]
-    part = min(max((speed - low) / (high - low), 0.0), 1.0)
-    torque = (1.0 - part) * driveline.curve_torque[i] + part * driveline.curve_torque[i + 1]
+    torque = interpolate(driveline.curve_speed, driveline.curve_torque, speed)
     # the governor cuts off within a tenth beyond the curve's end
     over = (speed - driveline.curve_speed[-1]) / (0.1 * driveline.curve_speed[-1])
     return torque * min(max(1.0 - over, 0.0), 1.0) * driveline.efficiency * driveline.ratio[shaft.gear[0] - 1]

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...numerics.compiled import kernel
+from ...numerics.table import interpolate
 from ...numerics.units import RPM
 
 
@@ -68,29 +69,11 @@ def new_wanted(schedule):
 
 
 @kernel
-def scheduled(schedule, values, at):
-    """Return the value of one of the schedule's columns (m,) at a time or distance."""
-    low, high = 0, schedule.at.size - 1
-    if at <= schedule.at[low]:
-        return values[low]
-    if at >= schedule.at[high]:
-        return values[high]
-    while high - low > 1:
-        middle = (low + high) // 2
-        if schedule.at[middle] <= at:
-            low = middle
-        else:
-            high = middle
-    part = (at - schedule.at[low]) / (schedule.at[high] - schedule.at[low])
-    return (1.0 - part) * values[low] + part * values[high]
-
-
-@kernel
 def wanted_speed(schedule, wanted, distance):
     """Return the wanted speed [m/s] of a vehicle that has come so far along its path [m]."""
     if wanted.commanded[0]:
         return wanted.command[0]
-    return scheduled(schedule, schedule.speed, distance if schedule.by_distance else wanted.time[0])
+    return interpolate(schedule.at, schedule.speed, distance if schedule.by_distance else wanted.time[0])
 
 
 @kernel
@@ -98,4 +81,4 @@ def wanted_curvature(schedule, wanted, distance):
     """Return the wanted curvature [1/m] of the path at a distance [m] that the vehicle's front reaches now."""
     if wanted.commanded[0]:
         return wanted.command[1]
-    return scheduled(schedule, schedule.curvature, distance if schedule.by_distance else wanted.time[0])
+    return interpolate(schedule.at, schedule.curvature, distance if schedule.by_distance else wanted.time[0])
