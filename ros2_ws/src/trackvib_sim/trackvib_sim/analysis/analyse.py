@@ -89,6 +89,9 @@ def analyse(
             sensor: hypot(*(numbers.rms_weighted for numbers in axes.values())) for sensor, axes in sensors.items()
         },
         absorbed_power={sensor: found.absorbed_power() for sensor, found in levels.items()},
+        motion_sickness={
+            sensor: motion for sensor, found in levels.items() if (motion := found.motion_sickness()) is not None
+        },
         lines=known_lines(spectra, motion, pitch, orders),
         **numbers_in_parts(parts, levels, recording, segments),
         order_levels=order_levels,
