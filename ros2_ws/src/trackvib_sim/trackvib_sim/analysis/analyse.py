@@ -90,7 +90,7 @@ def analyse(
         },
         absorbed_power={sensor: found.absorbed_power() for sensor, found in levels.items()},
         motion_sickness={
-            sensor: motion for sensor, found in levels.items() if (motion := found.motion_sickness()) is not None
+            sensor: sickness for sensor, found in levels.items() if (sickness := found.motion_sickness()) is not None
         },
         lines=known_lines(spectra, motion, pitch, orders),
         **numbers_in_parts(parts, levels, recording, segments),

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..numerics.units import NANO
-from .absorbed_power import absorbed_power
 from . import iso2631
+from .absorbed_power import absorbed_power
 from .iso2631 import LEAST_RATE, weighted
 from .numbers import AxisNumbers, MotionSickness
 from .stamps import blocks
