@@ -7,10 +7,12 @@ from ..bags.recording import Recording
 from ..numerics.units import NANO
 from .acceleration_numbers import axis_numbers, measure_accelerations
 from .campbell import campbells
+from .clocks.time_base import on_one_time_base
 from .history import build_history
 from .levels import build_bins
 from .lines import known_lines, missing_causes, read_causes
 from .loop_health import drive, loop_health, mount_energy
+from .measured import unit_notes
 from .motion import mean_motion
 from .mount_numbers import currents, mount_numbers
 from .notes import find_notes
@@ -62,6 +64,7 @@ def analyse(
     for name, value in (("interval", interval), ("speed_band", speed_band)):
         if not 0.0 < value < inf:
             raise ValueError(f"{name} is {value:g}, must be a number above 0")
+    recording = on_one_time_base(recording)
     segments = find_segments(recording, settle)
     loop = loop_health(recording)
     bins = build_bins(segments.begin, segments.last)
@@ -103,7 +106,8 @@ def analyse(
         loop=loop,
         messages=dict(sorted(recording.counts.items())),
         timing=segments.timing,
+        clocks=recording.clocks,
         spectra=spectra,
         history=build_history(recording, bins, levels),
-        notes=(*find_notes(recording, segments), *missing_causes(recording, motion), *no_vehicle),
+        notes=(*recording.notes, *find_notes(recording, segments), *unit_notes(sensors), *missing_causes(recording, motion), *no_vehicle),
     )

@@ -24,7 +24,7 @@ def find_notes(recording, segments):
             f"gaps: {found.gap_count}, in which {missing} missing": found.gap_count,
             f"samples within half a period of the one before: {found.repeated}": found.repeated,
             f"samples older than the one before: {found.backward}": found.backward,
-            f"samples that are no numbers: {odd[end]}": odd[end],
+            f"samples that are no numbers: {odd[end]}": odd[end] % found.samples,  # of a sensor that measured nothing all
         }
         notes += [f"{end}: {text}" for text, count in counts.items() if count]
     if segments.rate < LEAST_RATE:
@@ -38,6 +38,6 @@ def _not_finite(columns):
     """Count the samples of some columns, the stamps first, with a value that is not finite."""
     count = 0
     for block in blocks(len(columns[0]), BLOCK):
-        parts = (column[block].reshape(len(column[block]), -1) for column in columns[1:])
+        parts = (column[block].reshape(len(column[block]), -1) for column in columns[1:3] if column is not None)
         count += int(np.count_nonzero(~np.logical_and.reduce([np.isfinite(part).all(axis=1) for part in parts])))
     return count

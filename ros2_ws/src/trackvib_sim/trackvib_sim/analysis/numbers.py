@@ -186,6 +186,23 @@ class Timing:
 
 
 @dataclass(frozen=True)
+class Clock:
+    """What a sensor's stamps were like before they were put on the robust line through them."""
+
+    rate: float = _number("Hz")  # slope of the line
+    jitter: float = _number("s")  # RMS of the stamps about it
+    correction: float = _number("s")  # the largest
+    lost: int = _number("-")  # samples that are missing between others
+    repeated: int = _number("-")  # stamps that are those of the sample before
+    disordered: int = _number("-")  # samples that were put in the order of their stamps
+    copies: int = _number("-")  # messages that are in the bag twice, left out
+    left_out: int = _number("-")  # samples that stand apart, or next to lost ones
+    settings: tuple  # by how much the clock was set [s], and whether the recorder's clock bears it out
+    counted_by_log: bool  # whether samples were counted by the times at which they were recorded
+    steps: str  # which steps the stamps make
+
+
+@dataclass(frozen=True)
 class Spectra:
     """Means over the measured time by Welch's method: windows of 1 s, Hann, half overlapping."""
 
@@ -253,6 +270,7 @@ class Analysis:
     loop: dict  # what was lost (None where the bag cannot tell), and what the simulator told last
     messages: dict  # topic -> count
     timing: dict  # end of topic -> Timing
+    clocks: dict  # end of topic -> Clock, of sensors whose stamps were not even
     spectra: Spectra
     history: History
     notes: tuple  # sentences: what was found wrong, what could not be had and why

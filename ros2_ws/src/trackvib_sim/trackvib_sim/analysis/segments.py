@@ -74,11 +74,23 @@ def find_segments(recording, settle=None):
     found = common_segments(stamps, breaks, period, begin, settle, SHORTEST_SETTLING, SHORTEST_MEASURING)
     last = int(min(stamp[-1] for stamp in stamps))
     if not found:
-        needed = f"{settle:g} s of settling and {SHORTEST_MEASURING:g} s to measure without a gap in either sensor"
-        raise TooShort(
-            f"the run is {(last - begin) / NANO:g} s long, RMS values need {settle + SHORTEST_MEASURING:g} s ({needed})"
-        )
+        raise TooShort(_why_none(stamps, timings, begin, last, settle))
     return Segments(begin, last, settle, NANO / period, found, {end: each for end, (each, _) in timings.items()})
+
+
+def _why_none(stamps, timings, begin, last, settle):
+    """Say why no segment of two sensors with stamps is long enough to be measured."""
+    needed = settle + SHORTEST_MEASURING
+    parts = f"{settle:g} s of settling and {SHORTEST_MEASURING:g} s to measure without a gap in either sensor"
+    first = int(max(stamp[0] for stamp in stamps))
+    if first > last:
+        spans = (f"{end} from {stamp[0] / NANO:.3f} to {stamp[-1] / NANO:.3f} s" for end, stamp in zip(_IMUS, stamps, strict=True))
+        return f"the sensors were recorded at different times by their stamps: {', '.join(spans)}"
+    run = f"the run is {(last - begin) / NANO:g} s long"
+    if last - begin < needed * NANO:
+        return f"{run}, RMS values need {needed:g} s ({parts})"
+    gaps = (f"{timings[end][0].gap_count} in {end} ({timings[end][0].missing} samples missing)" for end in _IMUS)
+    return f"{run}, but no part of it has the {needed:g} s that RMS values need ({parts}); gaps: {', '.join(gaps)}"
 
 
 def segments_of(stamp, segments):

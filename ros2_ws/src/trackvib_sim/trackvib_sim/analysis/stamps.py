@@ -18,11 +18,16 @@ def blocks(size, length):
 
 
 def period_of(stamp):
-    """Return the median step [ns] of stamps (k,), of many of them from a sample; nan of fewer than two."""
+    """Return the usual step [ns] of stamps (k,), of many of them from a sample; nan of fewer than two.
+
+    It is the mean of those steps that are near the median, so that whole nanoseconds do not add up.
+    """
     if len(stamp) < 2:
         return float("nan")
     looked_at = np.linspace(0, len(stamp) - 2, min(len(stamp) - 1, LOOKED_AT)).astype(np.int64)
-    return float(np.median(stamp[looked_at + 1] - stamp[looked_at]))
+    step = stamp[looked_at + 1] - stamp[looked_at]
+    median = np.median(step)
+    return float(step[np.abs(step - median) <= TOLERANCE * median].mean()) if median > 0 else float(median)
 
 
 def timing(stamp, begin):

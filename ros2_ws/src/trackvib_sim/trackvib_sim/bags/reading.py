@@ -8,27 +8,37 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+from mcap.exceptions import InvalidMagic
 from mcap.records import Channel, Metadata, Schema
 from mr_mount_controller.mounting import MOST_COILS, MOST_MOUNTS, described, undescribed
 from mr_mount_controller.node_base import topics
+from mr_mount_controller.node_base.plain_text import readable
 from rosbags.serde import SerdeError
 
 from ..numerics.units import NANO
 from .columns import Columns, Topic
 from .definitions import Definition
 from .errors import BagError
-from .files import bag_files
+from .files import find_files
 from .limits import TooLarge
 from .mcap_records import DAMAGE
 from .mcap_walk import Walk
 from .raw_messages import NO_SCHEMA
 from .recording import Answers, Commands, Drive, Inertial, LoopCounts, Mounts, Odometry, Recording
 
-_SENSOR = Columns(topics.IMU_TYPE, Inertial, {
-    "stamp": "header.stamp",
-    "specific_force": ("linear_acceleration", (3,)),
-    "angular_velocity": ("angular_velocity", (3,)),
-})  # fmt: skip
+_SENSOR = Columns(
+    topics.IMU_TYPE,
+    Inertial,
+    {
+        "stamp": "header.stamp",
+        "specific_force": ("linear_acceleration", (3,)),
+        "angular_velocity": ("angular_velocity", (3,)),
+    },
+    first={"covariance": ("linear_acceleration_covariance", (9,))},
+    logged="logged",
+)
+HEADER_TIME, LOG_TIME = TIMES = ("header", "log")  # that may be the time base
+_SETS_ASIDE = "`trackvib bag repair` sets it aside"
 _NUMBERS = {name: (name, (-1,)) for name in ("current", "stiffness", "damping")}
 _VECTORS = {name: (name, (-1, 3)) for name in ("deflection", "velocity", "force")}
 _DRIVE = ("distance", "offset", "wanted_speed", "curvature", "engine_speed", "gear")
@@ -71,7 +81,11 @@ _READ_ERRORS = (
 )  # fmt: skip
 
 
-def read_recording(path: str | Path, on_progress: Callable[[int, int], None] = lambda done, total: None) -> Recording:
+def read_recording(
+    path: str | Path,
+    on_progress: Callable[[int, int], None] = lambda done, total: None,
+    time: str = HEADER_TIME,
+) -> Recording:
     """Return the `Recording` in a bag, a folder with MCAP files or one such file, as far as it goes.
 
     Topics are found by the ends of their names. Of several that end alike the one beside the sensors counts.
@@ -81,6 +95,8 @@ def read_recording(path: str | Path, on_progress: Callable[[int, int], None] = l
     path : path
     on_progress : callable
         Is told now and then how many bytes of how many have been read.
+    time : str
+        Which times are the stamps: "header", those in the messages, or "log", those at which they were recorded.
 
     Raises
     ------
@@ -96,12 +112,18 @@ def read_recording(path: str | Path, on_progress: Callable[[int, int], None] = l
     >>> recording.chassis.specific_force.shape[1], recording.complete
     (3, True)
     """
-    path, reading = Path(path), _Reading()
-    files = bag_files(path)
+    path, reading = Path(path), _Reading(by_log=time == LOG_TIME)
+    found = find_files(path)
+    files, unreadable = found.files, []
     try:
         total, done = sum(file.stat().st_size for file in files), 0
         for file in files:
-            reading.read(file, lambda end, before=done: on_progress(before + end, total))
+            try:
+                reading.read(file, lambda end, before=done: on_progress(before + end, total))
+            except InvalidMagic:
+                if len(files) == 1:
+                    raise
+                unreadable.append(file.name)  # a split of which nothing was written
             done += file.stat().st_size
         recording = reading.recording(path)
     except BagError:
@@ -109,13 +131,15 @@ def read_recording(path: str | Path, on_progress: Callable[[int, int], None] = l
     except _READ_ERRORS as error:
         raise BagError(f"bag {str(path)!r} cannot be read: {str(error) or type(error).__name__}") from None
     on_progress(total, total)
-    return recording
+    notes = [f"{readable(name)} is empty or no MCAP file, left out; {_SETS_ASIDE}" for name in unreadable]
+    return recording._replace(notes=(*found.notes, *notes))
 
 
 class _Reading:
     """What has been read of a bag."""
 
-    def __init__(self):
+    def __init__(self, by_log):
+        self._by_log = by_log
         self._columns, self._further, self._roads, self._texts, self._mountings = {}, {}, {}, {}, {}  # by topic
         self._loop_counts, self._diagnostics = [], {}
         self._provenance, self._counts, self._complete = {}, Counter(), True
@@ -147,20 +171,22 @@ class _Reading:
                     if end is not None and schema is not None and schema.name == _TYPES.get(end, topics.IMU_TYPE):
                         if schema.id not in definitions:
                             definitions[schema.id] = Definition(schema.name, schema.encoding, schema.data)
-                        self._take(channel.topic, end, definitions[schema.id], part.data, start, size)
+                        logged = part.messages.head["log_time"][of_channel].astype(np.int64)
+                        self._take(channel.topic, end, definitions[schema.id], part.data, start, size, logged)
                 on_progress(part.end)
             _require_undamaged(walk)
             self._complete &= walk.complete
 
-    def _take(self, topic, end, definition, data, start, size):
+    def _take(self, topic, end, definition, data, start, size, logged):
         if end in COLUMNS:
             if topic not in self._columns:
-                self._columns[topic] = Topic(COLUMNS[end])
-            self._columns[topic].add(definition.kind, data, start, size)
+                self._columns[topic] = Topic(COLUMNS[end], self._by_log)
+            self._columns[topic].add(definition.kind, data, start, size, logged)
             return
         if end == _FURTHER:
             if len(self._further) < _MOST_FURTHER:
-                self._further.setdefault(topic, Topic(_SENSOR)).add(definition.kind, data, start, size)
+                further = self._further.setdefault(topic, Topic(_SENSOR, self._by_log))
+                further.add(definition.kind, data, start, size, logged)
             return
         for first, length in zip(start.tolist(), size.tolist(), strict=True):
             message = definition.message(data[first : first + length].data)

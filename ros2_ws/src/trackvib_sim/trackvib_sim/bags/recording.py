@@ -20,6 +20,8 @@ class Inertial(NamedTuple):
     stamp: np.ndarray  # (k,) ns
     specific_force: np.ndarray  # (k, 3) m/s^2
     angular_velocity: np.ndarray  # (k, 3) rad/s
+    logged: np.ndarray | None = None  # (k,) when each message was recorded, ns
+    covariance: np.ndarray | None = None  # (k,) first number of that of the force; -1: not measured
 
 
 class Mounts(NamedTuple):
@@ -111,6 +113,8 @@ class Recording(NamedTuple):
     provenance: dict  # metadata records of the bag: name -> dict of text
     counts: Counter  # messages a topic
     complete: bool  # False where the bag was cut short
+    notes: tuple = ()  # sentences: what of the bag was left out, and what was done to it
+    clocks: dict | None = None  # end of topic -> `analysis.numbers.Clock`, once sensors are on one time base
 
     @property
     def streams(self):

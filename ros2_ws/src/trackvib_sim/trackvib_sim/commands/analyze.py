@@ -10,7 +10,9 @@ from rich.table import Table
 
 from ..analysis.analyse import analyse
 from ..analysis.bag_tables import write_tables
+from ..analysis.clocks.time_base import on_one_time_base
 from ..analysis.levels import WEIGHTINGS
+from ..analysis.measured import in_unit
 from ..analysis.numbers import AXES, SENSORS
 from ..analysis.report.page import write_report
 from ..analysis.report.report_data import build_report_data
@@ -20,7 +22,7 @@ from ..console import Description, Terminal
 from .result_folder import CommandError, all_or_nothing
 
 
-def run_analyze(bags, settle, interval, speed_band, out):
+def run_analyze(bags, settle, interval, speed_band, out, time, unit):
     """Analyse some bags; see `analyze_cli`.
 
     Raises
@@ -36,8 +38,9 @@ def run_analyze(bags, settle, interval, speed_band, out):
         analyses, report_data_list = [], []
         with _progress(console) as progress:
             for bag in bags:
-                recording = read_recording(bag, _reporter(progress, f"reading {bag}"))
+                recording = read_recording(bag, _reporter(progress, f"reading {bag}"), time)
                 try:
+                    recording = on_one_time_base(in_unit(recording, unit))
                     reporter = _reporter(progress, f"measuring {bag}")
                     analyses.append(analyse(recording, settle, reporter, interval, speed_band))
                     report_data_list.append(build_report_data(recording, analyses[-1]))

@@ -36,12 +36,26 @@ from .option_types import FiniteRange, largest_chunk_option
     help="Width of the bands of speed by which numbers are given, in m/s.",
 )
 @click.option(
+    "--time",
+    type=click.Choice(("header", "log")),
+    default="header",
+    show_default=True,
+    help="Which times are the time base: those in the messages' headers, or those at which messages were recorded.",
+)
+@click.option(
+    "--unit",
+    type=click.Choice(("m/s2", "g")),
+    default="m/s2",
+    show_default=True,
+    help="Unit of the recorded accelerations.",
+)
+@click.option(
     "--out",
     type=click.Path(file_okay=False),
     default=None,
     help="Folder to make for the results.  [default: analyses/<time>]",
 )
-def analyze(bags, settle, interval, speed_band, out):
+def analyze(bags, settle, interval, speed_band, out, time, unit):
     """Turn bags into an HTML report and numbers.
 
     RMS, ISO 2631-1 and absorbed power, by way and by speed, too; spectra, orders of the engine, mounts and currents:
@@ -53,6 +67,6 @@ def analyze(bags, settle, interval, speed_band, out):
     from .result_folder import CommandError
 
     try:
-        run_analyze(bags, settle, interval, speed_band, out)
+        run_analyze(bags, settle, interval, speed_band, out, time, unit)
     except (BagError, CommandError) as error:
         fail(error)

@@ -103,9 +103,9 @@ class _Stream:
     def __init__(self, recording, end, mounts=()):
         """Take the end of the topic's name, and what the mounts are called if it is theirs."""
         self.topic, self.compared, self._mounts = recording.topics[end], 0, mounts
-        self.stamp, *self._columns = map(np.asarray, recording.streams[end])
         fields = COLUMNS.get(end, COLUMNS[topics.CHASSIS_IMU]).fields
         self._fields = [field for field, _ in list(fields.values())[1:]]
+        self.stamp, *self._columns = map(np.asarray, recording.streams[end][: len(fields)])
 
     def difference(self, time, values):
         """Set the sample of a time [ns] beside the recorded one; returns the first `Difference` of its bits, if any."""

@@ -1,0 +1,121 @@
+"""Which sample is which: lost samples told from jitter, bursts and coarse stamps.
+
+Where samples are lost, the stamps run ahead of the count for good; where stamps are late, early, coarse or repeated,
+they come back. So a step is what medians over many samples before and after it differ by.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy import ndimage
+
+STEADY = 0.1  # of a period: within it a step is a regular one
+MOSTLY = 0.6  # share of regular steps by which stamps are sharp
+AROUND, MOST_AROUND = 4, 1024  # samples to either side that a median is over
+NOISE = 0.06  # of a period, that a median may scatter by
+LEAST = 0.6  # of a period, by which medians must differ
+CLOSE = 0.25  # of a period, by which that may differ from a whole number
+BEATS = 8  # regular places at which coarse stamps make a longer or shorter step
+BLURRED = 20.0  # periods, by which stamps may scatter
+
+
+class Count(NamedTuple):
+    """The samples of a stretch as their stamps tell them."""
+
+    period: float  # about it, in the unit of the stamps
+    index: np.ndarray  # (k,) number of each sample, from 0; lost ones are counted in
+    lost: int
+    scatter: float  # robust standard deviation of the stamps about even ones, periods
+    unsure: np.ndarray  # (k,) bool, near samples that are lost nobody knows exactly where
+    places: np.ndarray  # (p,) indices before which any step was found
+    steps: np.ndarray  # (p,) of how many periods
+
+
+def count_samples(time):
+    """Return the `Count` of times (k,), one a sample, in their order; None where they do not go on evenly at all."""
+    step = np.diff(time)
+    period, sharp = _period(time, step)
+    if not period > 0.0:
+        return None
+    ahead = (time - time[0]) / period - np.arange(len(time))
+    scatter, around = _scatter(ahead), AROUND
+    if not sharp:
+        if scatter > BLURRED:
+            return None
+        around = int(np.clip((1.25 * scatter / NOISE) ** 2, 16, min(MOST_AROUND, max(len(time) // 8, 1))))
+    places, steps = _steps(ahead, around, sharp)
+    lost = steps > 0
+    before, unsure = np.zeros(len(time), np.int64), np.zeros(len(time), bool)
+    np.add.at(before, places[lost], steps[lost])
+    for place in () if sharp else places[lost].tolist():
+        unsure[max(place - around // 2, 0) : place + around // 2] = True
+    return Count(period, np.arange(len(time)) + np.cumsum(before), int(before.sum()), scatter, unsure, places, steps)
+
+
+def _period(time, step):
+    """Return about the period of times (k,), and whether most steps are one period long."""
+    usual = float(np.median(step))
+    regular = np.abs(step - usual) <= STEADY * usual
+    mean = _mean_step(time)
+    if usual > 0.0 and regular.mean() >= MOSTLY and not _beating(step, usual, regular):
+        return float(step[regular].mean()), True
+    return mean, False
+
+
+def _mean_step(time):
+    """Return the median of mean steps over many samples: lost ones are in few of these, bursts are averaged."""
+    many = int(np.clip(len(time) // 8, 1, 256))
+    middles = time[: len(time) // many * many].reshape(-1, many).mean(axis=1)
+    return float(np.median(np.diff(middles))) / many
+
+
+def _beating(step, usual, regular):
+    """Return whether steps are those of coarse stamps at another rate: other steps come as regularly as can be."""
+    grain = np.abs(step - usual)[~regular]
+    if len(grain) < BEATS or not _mostly_alike(grain, 0.01):
+        return False
+    apart = np.diff(np.flatnonzero(~regular))
+    return _mostly_alike(apart, 0.02, 1.0)
+
+
+def _mostly_alike(values, relative, absolute=0.0):
+    middle = np.median(values)
+    return bool((np.abs(values - middle) <= absolute + relative * np.abs(middle)).mean() >= 0.9)
+
+
+def _scatter(ahead):
+    """Return by how much, robustly, values scatter about what they are over a few dozen samples."""
+    width = min(64, len(ahead))
+    parts = ahead[: len(ahead) // width * width].reshape(-1, width)
+    # a straight line through each part: the period is only about right
+    slope = (parts[:, width // 2 :].mean(axis=1) - parts[:, : width // 2].mean(axis=1)) / (width / 2)
+    rest = parts - slope[:, None] * np.arange(width)
+    rest -= np.median(rest, axis=1)[:, None]
+    return float(np.median(1.4826 * np.median(np.abs(rest), axis=1)))
+
+
+def _steps(ahead, around, sharp):
+    """Return before which samples, and by how many periods, the stamps run ahead of the count for good, or fall back."""
+    if len(ahead) <= 4 * around:
+        return np.empty(0, np.int64), np.empty(0, np.int64)
+    level = ndimage.median_filter(ahead, 2 * around + 1, mode="nearest")
+    apart = around + 1
+    change = np.zeros(len(ahead))
+    change[apart:-apart] = level[2 * apart :] - level[: -2 * apart]
+    regions, count = ndimage.label(np.abs(change) > LEAST)
+    places, steps = [], []
+    for (region,) in ndimage.find_objects(regions) if count else ():
+        before, after = max(region.start - apart, 0), min(region.stop + apart, len(ahead)) - 1
+        number = round(float(level[after] - level[before]))
+        if not number:
+            continue
+        inside = np.diff(ahead[before : after + 1])
+        single = np.round(inside).astype(np.int64)
+        if sharp and single[single > 0].sum() == number > 0:
+            where = np.flatnonzero(single > 0)
+            places += (before + 1 + where).tolist()
+            steps += single[where].tolist()
+        else:
+            places.append(before + 1 + int(np.argmax(inside * np.sign(number))) if sharp else (before + after) // 2)
+            steps.append(number)
+    return np.array(places, np.int64), np.array(steps, np.int64)

@@ -1,0 +1,62 @@
+"""The robust line through stamps against the number of the sample."""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy import stats
+
+POINTS = 200  # medians of as many parts the slope is taken from
+WANDERING = 5.0  # s; over so long a part of its own a clock may go otherwise than over the whole
+LEAST_PART = 200  # samples of it
+NOTABLE = 0.02  # of a period, by which the clock must leave the straight line
+
+
+class Line(NamedTuple):
+    """When each sample was taken: a straight line, along which a clock may wander slowly."""
+
+    period: float  # slope
+    start: float  # at number 0
+    number: np.ndarray  # (p,) of samples at which the clock is known to leave the straight line
+    off: np.ndarray  # (p,) by how much
+
+    def at(self, index):
+        """Return the times of samples by their numbers (k,)."""
+        straight = self.start + self.period * index
+        return straight + np.interp(index, self.number, self.off) if len(self.number) > 1 else straight
+
+
+def line_through(time, index, period, seconds, grain):
+    """Return the `Line` through times (k,) of samples with rising numbers (k,).
+
+    The slope is Theil and Sen's, of medians of parts. Where medians over `WANDERING` leave the straight line by more
+    than they scatter, the line goes through them.
+
+    Parameters
+    ----------
+    time, index : (k,) arrays
+    period : float
+        About the slope.
+    seconds : float
+        A second in the unit of the times.
+    grain : float
+        In what steps the times are told.
+    """
+    rest = time - period * index
+    numbers, medians = _medians(index, rest, max(len(time) // POINTS, 1))
+    slope = float(stats.theilslopes(medians, numbers).slope) if len(numbers) > 1 else 0.0
+    rest = rest - slope * index
+    start = float(np.median(rest))
+    rest -= start
+    long = max(LEAST_PART, round(WANDERING * seconds / period))
+    numbers, medians = _medians(index, rest, long)
+    scatter = 1.4826 * float(np.median(np.abs(rest)))
+    wanders = len(medians) > 2 and np.ptp(medians) > 6.0 * 1.25 * scatter / np.sqrt(long) + max(NOTABLE * period, grain)
+    return Line(period + slope, start, *((numbers, medians) if wanders else (np.empty(0), np.empty(0))))
+
+
+def _medians(index, values, length):
+    """Return mean numbers and median values of parts of a length, the last one as long or longer."""
+    count = max(len(values) // length, 1)
+    edges = np.append(np.arange(count) * length, len(values))
+    parts = [slice(*each) for each in zip(edges[:-1], edges[1:], strict=True)]
+    return np.array([index[part].mean() for part in parts]), np.array([np.median(values[part]) for part in parts])

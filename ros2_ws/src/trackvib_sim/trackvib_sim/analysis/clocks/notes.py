@@ -1,0 +1,30 @@
+"""What was found of a sensor's clock and done about it, in sentences."""
+
+NOTABLE = 0.01  # of a period, by which stamps must be off the line to be spoken of
+
+
+def clock_notes(end, clock):
+    """Say in sentences what was found of a sensor's clock and done about it."""
+    period = 1.0 / clock.rate
+    notes = []
+    if clock.correction > NOTABLE * period:
+        notes.append(
+            f"{end}: stamps are not even ({clock.steps}); samples are taken to be so, at {clock.rate:.7g} Hz by a "
+            f"robust line through the stamps, which are {1e3 * clock.jitter:.3g} ms RMS and "
+            f"{1e3 * clock.correction:.3g} ms at most off it, {clock.correction / period:.2g} periods"
+        )
+    if clock.counted_by_log and notes:
+        notes.append(f"{end}: samples are counted by the times at which they were recorded, which are steadier")
+    for count, text in (
+        (clock.lost, "samples are missing between others"),
+        (clock.repeated, "stamps are those of the sample before"),
+        (clock.disordered, "samples were put in the order of their stamps"),
+        (clock.copies, "messages are in the bag twice, one of each left out"),
+        (clock.left_out, "samples stand apart or next to lost ones, left out"),
+    ):
+        if count:
+            notes.append(f"{end}: {count} {text}")
+    for step, witnessed in clock.settings:
+        what = "taken back, for the recorder's clock went on" if witnessed else "split there"
+        notes.append(f"{end}: the clock was set {'ahead' if step > 0 else 'back'} by {abs(step):.6g} s: {what}")
+    return notes
