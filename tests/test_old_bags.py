@@ -1,7 +1,6 @@
 """Bags from before there could be any number of mounts are read, analysed, verified, replayed and played as ever."""
 
 import json
-from contextlib import closing
 
 import numpy as np
 import pytest
@@ -11,7 +10,7 @@ from mr_mount_controller.node_base.qos import LOOP_WRITER_QOS
 from rclpy.serialization import deserialize_message
 from trackvib_msgs.msg import CoilCurrent, MountState
 from trackvib_sim.analysis.analyse import analyse
-from trackvib_sim.bags.playing import open_bag
+from trackvib_sim.bags.playing import OpenBag
 from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.nodes.messages import message_type
 from trackvib_sim.nodes.older_messages import renewal
@@ -30,9 +29,9 @@ def old(recorded_run, tmp_path):
 
 def messages(bag, topic, kind):
     """The messages of a topic as the player publishes them, and what makes them of those in the bag."""
-    with closing(open_bag(bag)) as reader:
+    with OpenBag(bag) as reader:
         connections = [connection for connection in reader.connections if connection.topic == topic]
-        renew = renewal(connections[0], kind)
+        renew = renewal(connections[0].schema, kind)
         data = [bytes(data) for _, _, data in reader.messages(connections)]
         return [deserialize_message(renew(each) if renew else each, kind) for each in data], renew
 
@@ -60,13 +59,13 @@ def test_arrays_of_two_become_sequences_of_two(recorded_run, old, topic, kind):
 
 def test_only_what_has_changed_is_turned(recorded_run, old):
     """And what is damaged is refused as ever."""
-    with closing(open_bag(recorded_run / "bag")) as reader:
-        assert not any(renewal(each, message_type(each.msgtype)) for each in reader.connections)
-    with closing(open_bag(old)) as reader:
-        turned = [each for each in reader.connections if renewal(each, message_type(each.msgtype))]
+    with OpenBag(recorded_run / "bag") as reader:
+        assert not any(renewal(each.schema, message_type(each.type_name)) for each in reader.connections)
+    with OpenBag(old) as reader:
+        turned = [each for each in reader.connections if renewal(each.schema, message_type(each.type_name))]
         assert {each.topic for each in turned} == {"/mount_state", "/coil_current"}
         connection, _, data = next(iter(reader.messages(turned)))
-        renew = renewal(connection, message_type(connection.msgtype))
+        renew = renewal(connection.schema, message_type(connection.type_name))
         for damaged in (bytes(data)[:-8], bytes(data) + bytes(8)):
             with pytest.raises(LayoutError, match="shorter than its definition|does not fit"):
                 renew(damaged)
@@ -85,8 +84,8 @@ def test_under_a_law(start_cli, old, tmp_path):
     """What is written anew has the definitions of now, also where a reader compares hashes."""
     driven = start_cli("replay", old, "--law", "skyhook", "--out", tmp_path / "out")
     assert driven.wait() == 0, driven.output
-    with closing(open_bag(tmp_path / "out" / "bag")) as reader:
-        assert not any(renewal(each, message_type(each.msgtype)) for each in reader.connections)
+    with OpenBag(tmp_path / "out" / "bag") as reader:
+        assert not any(renewal(each.schema, message_type(each.type_name)) for each in reader.connections)
     before, again = read_recording(old), read_recording(tmp_path / "out" / "bag")
     for recorded, replayed in zip(before.mounts, again.mounts, strict=True):
         np.testing.assert_array_equal(recorded, replayed)

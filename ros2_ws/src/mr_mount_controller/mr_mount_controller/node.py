@@ -16,20 +16,21 @@ from .node_base.cdr import NANO
 from .node_base.listener import Refused
 from .node_base.loop_node import LoopNode, NodeError, run_node
 from .node_base.packed_message import MessageReader
-from .node_base.parameters import Parameter, ParameterError
+from .node_base.parameters import Parameter
 from .node_base.patience import Patience
 from .node_base.qos import LATCHED_QOS, LOOP_QOS, LOOP_WRITER_QOS
 from .node_base.topics import CHASSIS_IMU, COIL_CURRENT, MOUNT_DESCRIPTION, POWERTRAIN_IMU
 
 PARAMETERS = (
     Parameter("law", "passive", "Control law: a known name, or package.module:Class."),
-    Parameter("sample_rate", 1000, "Rate of the Imu messages.", "Hz", 10, 10000),
+    Parameter("sample_rate", 1000.0, "Rate of the Imu messages.", "Hz", 10.0, 10000.0),
     Parameter("coils", 0, f"Number of coils; 0: as {MOUNT_DESCRIPTION} tells, for which it waits.", "", 0, MOST_COILS),
     Parameter("wait_for_recorder", False, "Answer nothing before a recorder listens to the currents, too."),
 )
 _PATIENCE = 10.0  # s of wall time for those who shall hear the answers
 _GREATEST = 1e6  # m/s^2 or rad/s; no sensor measures more
 _CLASH = 5  # wrong steps from the very first sample on are not gaps but another rate
+_MANY, _OFF = 100, 0.05  # so many steps tell a rate that is off by more than this part
 
 
 class Reading(NamedTuple):
@@ -55,15 +56,13 @@ class ControllerNode(LoopNode):
         super().__init__("controller", PARAMETERS)
         law = find_law(self.settings["law"])
         values = self.declare_more(law.parameters)
-        rate = self.settings["sample_rate"]
-        if NANO % rate:
-            raise ParameterError(f"controller: parameter 'sample_rate' is {rate}, accepted are divisors of {NANO} Hz")
-        self._period = NANO // rate
+        self._period = round(NANO / self.settings["sample_rate"])
         self._law = law(self._period / NANO, **values)
         self._chassis = self._powertrain = None  # latest readings
         self._last = None  # stamp answered last, ns
         self._sample = None  # the sample answered last
-        self._steps = self._gaps = 0  # between samples, and those among them that were not one period
+        self._steps = self._gaps = 0  # between samples, and those among them that were not about one period
+        self._even = self._passed = 0  # those that were, and the time over the first of them, ns
         self._answer = CoilCurrent()
         self._stamp = self._answer.header.stamp = self._answer.sample_stamp
         self._mounting = None  # not known yet
@@ -154,22 +153,32 @@ class ControllerNode(LoopNode):
             )
 
     def _check_step(self, step):
-        """Count a gap between samples; raise `NodeError` if they come at another rate altogether."""
+        """Count a gap between samples; raise `NodeError` if they come at another rate altogether.
+
+        Stamps of a vehicle waver, so only the mean of many tells a rate that is not far off.
+        """
         self._steps += 1
-        if step == self._period:
+        if 2 * abs(step - self._period) < self._period:
+            self._even += 1
+            self._passed += step if self._even <= _MANY else 0
+            if self._even == _MANY and abs(self._passed / _MANY - self._period) > _OFF * self._period:
+                self._clash(self._passed / _MANY)
             return
         self._gaps += 1
         if self._gaps == self._steps == _CLASH:
-            raise NodeError(
-                f"samples come {step / NANO} s apart ({NANO / step:g} Hz), sample_rate is {NANO // self._period} Hz: "
-                "the two rates clash"
-            )
+            self._clash(step)
         if self._gaps == 1:
             self.get_logger().warning(f"samples {step / NANO} s apart, expected {self._period / NANO} s")
 
+    def _clash(self, step):
+        raise NodeError(
+            f"samples come {step / NANO} s apart ({NANO / step:g} Hz), sample_rate is {self.settings['sample_rate']:g} "
+            "Hz: the two rates clash"
+        )
+
     def _wait_for_listeners(self):
         self.get_logger().info("first sample received, answering")
-        self._steps = self._gaps = 0
+        self._steps = self._gaps = self._even = self._passed = 0
         wanted = 1 + self.settings["wait_for_recorder"]
         # no callbacks are served here: the sample at hand is the one to answer
         heard = self._currents.get_subscription_count

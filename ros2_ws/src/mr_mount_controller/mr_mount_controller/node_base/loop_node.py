@@ -10,6 +10,7 @@ from rclpy.exceptions import ParameterException
 from rclpy.experimental import EventsExecutor
 from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
+from rclpy.parameter import Parameter as RosParameter
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
@@ -108,6 +109,9 @@ class LoopNode(Node):
             else:
                 limits = FloatingPointRange(from_value=parameter.low, to_value=parameter.high, step=0.0)
                 descriptor.floating_point_range = [limits]
+        given = self._parameter_overrides.get(parameter.name)
+        if given is not None:  # ROS tells 5 and 5.0 apart, and takes the one not for the other
+            self._parameter_overrides[given.name] = RosParameter(given.name, value=parameter.converted(given.value))
         try:
             value = self.declare_parameter(parameter.name, parameter.default, descriptor).value
         except ParameterException:

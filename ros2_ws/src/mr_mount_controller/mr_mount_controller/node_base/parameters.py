@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from math import isfinite
 
+_WHOLE = 1 << 53  # up to which floating-point numbers hold every whole number
+
 
 class ParameterError(ValueError):
     """A parameter that cannot be used; the message names it, its value and what is accepted.
@@ -18,7 +20,7 @@ class ParameterError(ValueError):
 
 @dataclass(frozen=True)
 class Parameter:
-    """A named value of the type of its default.
+    """A named value of the type of its default; a whole number does for any number.
 
     Numbers lie in [low, high]; strings, where `choices` is given, are one of them.
 
@@ -50,20 +52,19 @@ class Parameter:
             list: "a list of texts (of none: [''])",
         }
         words = kind[type(self.default)]
-        if isinstance(self.default, float):
-            words += " (written with a point, as 1.0)"
         if self.low is not None:
             words += f" from {self.low:g} to {self.high:g}"
         return f"{words} {self.unit}".rstrip()
 
     def check(self, value):
-        """Return `value` if it is acceptable.
+        """Return `value` if it is acceptable, of the type of the default.
 
         Raises
         ------
         ParameterError
             It is not.
         """
+        value = self.converted(value)
         good = type(value) is type(self.default)
         if good and self.choices:
             good = value in self.choices
@@ -75,4 +76,10 @@ class Parameter:
             good = self.low <= value <= self.high
         if not good:
             raise ParameterError(f"parameter '{self.name}' is {value!r}, accepted is {self.accepted}")
+        return value
+
+    def converted(self, value):
+        """Return a whole number as the floating-point number that is meant, all else as it is."""
+        if isinstance(self.default, float) and type(value) is int and abs(value) <= _WHOLE:
+            return float(value)
         return value

@@ -12,7 +12,7 @@ from trackvib_sim.bags.contents import contents
 from trackvib_sim.bags.errors import BagError
 from trackvib_sim.bags.limits import largest_chunk
 from trackvib_sim.bags.mcap_summary import examine
-from trackvib_sim.bags.playing import open_bag
+from trackvib_sim.bags.playing import OpenBag
 from trackvib_sim.bags.raw_messages import RawMessage, raw_records
 from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.bags.repair import repair
@@ -112,7 +112,7 @@ def test_lost_messages_are_counted(tmp_path):
 
 def accepted(bag):
     """Read, examine, open and repair a bag; whatever is wrong is one error of few printable signs."""
-    for verb in (contents, read_recording, messages, lambda bag: open_bag(bag).close(), repair):
+    for verb in (contents, read_recording, messages, lambda bag: OpenBag(bag).close(), repair):
         try:
             verb(bag)
         except BagError as error:
@@ -130,7 +130,7 @@ def test_what_is_too_large_is_named_with_what_is_accepted(tmp_path):
     """By every reader; a larger limit lets it through."""
     bomb = next(data for name, data in files(1 << 27) if name.startswith("bomb zstd told"))
     (tmp_path / NAME).write_bytes(bomb)
-    for verb in (read_recording, messages, open_bag, repair):
+    for verb in (read_recording, messages, OpenBag, repair):
         with pytest.raises(BagError, match=rf"{1 << 27} bytes, accepted are {64 << 20} \(64 MiB; --largest-chunk"):
             verb(tmp_path)
     token = largest_chunk.set(256)
@@ -149,6 +149,6 @@ def test_odd_folders(tmp_path):
 
 def test_a_name_that_is_too_long():
     """Is that of a bag that cannot be read."""
-    for verb in (contents, read_recording, messages, open_bag, repair):
+    for verb in (contents, read_recording, messages, OpenBag, repair):
         with pytest.raises(BagError, match="xx' cannot be read: File name too long"):
             verb("x" * 300)

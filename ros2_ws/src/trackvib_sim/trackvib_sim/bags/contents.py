@@ -1,19 +1,22 @@
-"""What is in a bag, from the indexes of its files."""
+"""What is in a bag, from the indexes of its files, or where these do not tell it from the files themselves."""
 
 from collections import Counter
 from typing import NamedTuple
 
+from mcap.exceptions import InvalidMagic
 from mcap.writer import MCAP0_MAGIC
+from zstandard import ZstdError
 
 from .errors import BagError
-from .files import bag_files
+from .files import find_files
 from .limits import TooLarge
-from .mcap_summary import summary_of
+from .mcap_summary import full_summary
 from .metadata import channels
+from .opening import opened
 
 
 class Contents(NamedTuple):
-    """A bag as its indexes tell it."""
+    """What a bag holds."""
 
     files: list  # of Path
     size: int  # bytes
@@ -24,6 +27,7 @@ class Contents(NamedTuple):
     counts: Counter  # topic -> messages
     provenance: list  # names of metadata records
     attachments: list  # names
+    notes: tuple  # sentences: which files of the folder were left out
 
 
 def contents(path):
@@ -34,7 +38,8 @@ def contents(path):
     BagError
         It is no bag, was cut short, or cannot be read.
     """
-    files = bag_files(path)
+    found = find_files(path)
+    files = found.files
     summaries = [_summary(file) for file in files]
     types, counts = {}, Counter()
     for summary in summaries:
@@ -52,19 +57,20 @@ def contents(path):
         counts=counts,
         provenance=[index.name for summary in summaries for index in summary.metadata_indexes],
         attachments=[index.name for summary in summaries for index in summary.attachment_indexes],
+        notes=found.notes,
     )
 
 
 def _summary(file):
     try:
-        summary = summary_of(file)
+        summary = full_summary(file)
         if summary is None:
-            with file.open("rb") as stream:
+            with opened(file) as stream:
                 magic = stream.read(len(MCAP0_MAGIC))
-    except OSError as error:
-        raise BagError(f"{str(file)!r} cannot be read: {error.strerror}") from None
-    except TooLarge as error:
-        raise BagError(f"{str(file)!r} cannot be read: {error}") from None
+    except InvalidMagic:
+        raise BagError(f"{str(file)!r} is no MCAP file") from None
+    except (OSError, TooLarge, ZstdError) as error:
+        raise BagError(f"{str(file)!r} cannot be read: {getattr(error, 'strerror', None) or error}") from None
     if summary is not None:
         return summary
     if magic != MCAP0_MAGIC:

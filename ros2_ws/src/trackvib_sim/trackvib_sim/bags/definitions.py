@@ -1,16 +1,36 @@
 """Message definitions of a bag, as `node_base.cdr` wants them; and whole messages by them."""
 
+import re
+
 from mr_mount_controller.node_base.cdr import NUMBERS, TEXT, Fields, LayoutError, Repeated, check
+from mr_mount_controller.node_base.plain_text import shortened
 from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore
 from rosbags.typesys.base import TypesysError
 
-_PARSERS = {"ros2msg": get_types_from_msg, "ros2idl": lambda text, _: get_types_from_idl(text)}
+_IDL_SECTION = re.compile(r"^={80}\s*\nIDL: .*$", re.MULTILINE)  # before each file of several
+
+
+def _types_from_idl(text, _):
+    types = {}
+    for section in filter(str.strip, _IDL_SECTION.split(text)):
+        types |= get_types_from_idl(section)
+    return types
+
+
+_PARSERS = {"ros2msg": get_types_from_msg, "ros2idl": _types_from_idl}
+_WELL_KNOWN = get_typestore(Stores.ROS2_JAZZY).fielddefs
 _DEPTH = 50  # of messages within messages; one that holds itself has no end
+
+
+class UnreadableDefinition(LayoutError):
+    """A definition that is none, or in an encoding that is not known."""
 
 
 class Definition:
     """A message type (`package/msg/Type`) as a bag defines it.
+
+    Some recorders leave definitions out: what a bag does not define of the types that come with ROS 2 is as there.
 
     Attributes
     ----------
@@ -18,21 +38,19 @@ class Definition:
 
     Raises
     ------
+    UnreadableDefinition
+        The schema's encoding is unknown, or its text is no definition.
     LayoutError
-        The schema's encoding is unknown, its text is no definition or an incomplete one, or has a field without layout.
+        The definition is incomplete, or has a field without layout.
     """
 
     def __init__(self, type_name, encoding, text):
-        try:
-            parse = _PARSERS[encoding]
-        except KeyError:
-            accepted = ", ".join(_PARSERS)
-            raise LayoutError(f"schema of {type_name} is in {encoding!r}, accepted are {accepted}") from None
         self._type_name, self._store, self._known = type_name, get_typestore(Stores.EMPTY), {}
+        types = _parsed(type_name, encoding, text) if text.strip() else {}
         try:
-            self._store.register(parse(text.decode(), type_name))
+            self._store.register(types | _lacking(types, type_name))
         except (TypesysError, ValueError, LookupError) as error:
-            raise LayoutError(f"definition of {type_name} cannot be read: {error}") from None
+            raise UnreadableDefinition(f"definition of {type_name} cannot be read: {error}") from None
         self.kind = self._kind((Nodetype.NAME, type_name), "", _DEPTH)
 
     def message(self, data):
@@ -60,3 +78,39 @@ class Definition:
         if detail[0] not in NUMBERS:
             raise LayoutError(f"field {name} is a {detail[0]}, which has no layout")
         return NUMBERS[detail[0]]
+
+
+def _parsed(type_name, encoding, text):
+    try:
+        parse = _PARSERS[encoding]
+    except KeyError:
+        accepted = ", ".join(_PARSERS)
+        raise UnreadableDefinition(f"schema of {type_name} is in {encoding!r}, accepted are {accepted}") from None
+    try:
+        return parse(text.decode().replace("\r\n", "\n"), type_name)
+    except (TypesysError, ValueError, LookupError) as error:
+        reason = shortened(" ".join(str(error).split()))  # the parser's own tells the whole text again
+        raise UnreadableDefinition(f"definition of {type_name} cannot be read: {reason}") from None
+
+
+def _lacking(types, type_name):
+    """Return the well-known types that a type is made of, itself included, and that are not among the given ones."""
+    found, names = {}, [type_name]
+    while names:
+        name = names.pop()
+        if name in found or (name not in types and name not in _WELL_KNOWN):
+            continue
+        fields = types.get(name) or _WELL_KNOWN[name]
+        if name not in types:
+            found[name] = fields
+        names += [inner for _, description in fields[1] for inner in _named(description)]
+    return found
+
+
+def _named(description):
+    """Yield the name of the message that a field holds, if it does."""
+    node, detail = description
+    if node == Nodetype.NAME:
+        yield detail
+    elif node != Nodetype.BASE:
+        yield from _named(detail[0])

@@ -4,12 +4,17 @@ from pathlib import Path
 from typing import NamedTuple
 
 from mr_mount_controller.node_base.plain_text import readable
+from zstandard import ZstdError
 
 from ..yaml_text import YamlTextError, load, read_text
 from .errors import BagError
+from .mcap_walk import has_records
+from .opening import how_to_convert, opened
+
+_FOLDED = (".zstd", ".zst")  # behind the name of a file that is compressed as a whole
+_SUFFIXES = (".mcap", *(f".mcap{folded}" for folded in _FOLDED))
 
 METADATA = "metadata.yaml"
-_SUFFIX = ".mcap"
 
 
 class BagFiles(NamedTuple):
@@ -18,14 +23,19 @@ class BagFiles(NamedTuple):
     files: list  # of Path, in the order of `metadata.yaml`, or of their names
     beside: list  # names of files that `metadata.yaml` does not list: none of the bag
     absent: list  # names that it lists and that are not there
+    unreadable: list  # of Path: splits that are empty or no MCAP
 
     @property
     def notes(self):
         """What is odd about them, in sentences."""
-        beside, absent = (", ".join(readable(name) for name in names) for names in (self.beside, self.absent))
+        unreadable = [each.name for each in self.unreadable]
+        beside, absent, unreadable = (
+            ", ".join(readable(name) for name in names) for names in (self.beside, self.absent, unreadable)
+        )
         return (
             *([f"not among the files that {METADATA} lists, left out: {beside}"] if beside else []),
             *([f"listed by {METADATA}, not there: {absent}"] if absent else []),
+            *([f"empty or no MCAP, left out: {unreadable} (`trackvib bag repair` sets it aside)"] if unreadable else []),
         )
 
 
@@ -53,18 +63,33 @@ def find_files(path):
 
 def _files(path):
     if path.is_file():
-        return BagFiles([path], [], [])
-    visible = (each for each in path.glob(f"*{_SUFFIX}") if each.is_file() and not each.name.startswith("."))
-    files = sorted(visible, key=lambda each: (len(each.name), each.name))
+        return BagFiles([path], [], [], [])
+    found = (each for suffix in _SUFFIXES for each in path.glob(f"*{suffix}") if each.is_file())
+    there = {each.name: each for each in found if not each.name.startswith(".")}
+    # a player that unfolded a file left it beside
+    files = [each for name, each in there.items() if not any(f"{name}{folded}" in there for folded in _FOLDED)]
+    files.sort(key=lambda each: (len(each.name), each.name))
     if not files:
         inside = path / "bag"
         hint = f"; did you mean {str(inside)!r}?" if inside.is_dir() else ""  # of a run's folder
+        if any(each.suffix in (".db3", ".bag") for each in path.glob("*.*")):
+            hint = f"; {how_to_convert(path)}"
         raise BagError(f"bag {str(path)!r} {'holds no .mcap file' if path.is_dir() else 'is not there'}{hint}")
-    there, listed = {each.name: each for each in files}, _listed(path)
-    found = [there[name] for name in listed if name in there]
+    listed = _listed(path)
+    found, beside = [there[name] for name in listed if name in there], sorted(there.keys() - listed)
     if not found:  # of a bag whose files were renamed the list tells nothing
-        return BagFiles(files, [], listed)
-    return BagFiles(found, [name for name in there if name not in listed], [n for n in listed if n not in there])
+        found, beside = files, []
+    sound = [each for each in found if len(found) == 1 or _is_mcap(each)] or found  # of all alike the first is named
+    absent = [name for name in listed if name not in there]
+    return BagFiles(sound, beside, absent, [each for each in found if each not in sound])
+
+
+def _is_mcap(file):
+    try:
+        with opened(file) as stream:
+            return has_records(stream)
+    except ZstdError:
+        return False
 
 
 def _listed(path):
@@ -81,3 +106,8 @@ def called(path):
     """Return what to call a bag in a title: its name, with that of the run's folder before `bag`."""
     parts = Path(path).resolve().parts
     return readable("/".join(parts[-2:]) if parts[-1] == "bag" else parts[-1])
+
+
+def unfolded(file):
+    """Return the path of a file of a bag (a Path) as it is called without its compression as a whole."""
+    return file.with_suffix("") if file.suffix in _FOLDED else file

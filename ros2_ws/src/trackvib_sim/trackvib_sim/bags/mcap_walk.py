@@ -43,6 +43,15 @@ class Damage(NamedTuple):
         return f"byte {self.place}: {self.reason}{passed}"
 
 
+def has_records(stream):
+    """Return whether an open binary file is one of MCAP: it begins like one, or holds a record further on."""
+    try:
+        Walk(stream).begin()
+    except InvalidMagic:
+        return False
+    return True
+
+
 class Walk:
     """The records of an open binary file.
 
@@ -74,7 +83,7 @@ class Walk:
         TooLarge
             A record needs more memory than is accepted.
         """
-        place, outside = self._begin(), bytearray()
+        place, outside = self.begin(), bytearray()
         while place < self._finder.size and not self.complete:
             try:
                 record = self._finder.record(place)
@@ -102,8 +111,8 @@ class Walk:
             self.unread = self._finder.size - place
             yield self._part(self._finder.cut_chunk(place), self._finder.size)
 
-    def _begin(self):
-        """Return where the first record stands."""
+    def begin(self):
+        """Return where the first record stands; raises `InvalidMagic` as `parts` does."""
         magic = self._finder.bytes_at(0, MAGIC_SIZE)
         if magic == MCAP0_MAGIC:
             return MAGIC_SIZE

@@ -6,12 +6,16 @@ from pathlib import Path
 import yaml
 
 from ..new_files import new_file
-from ..yaml_text import YamlTextError, load
+from .qos import declared_qos
 
 
-def write_metadata(folder, summaries):
-    """Write the `metadata.yaml` of a bag folder; `summaries` maps the names of its files to their summaries."""
-    text = to_yaml({"rosbag2_bagfile_information": _information(summaries)})
+def write_metadata(folder, summaries, mode=""):
+    """Write the `metadata.yaml` of a bag folder.
+
+    `summaries` maps the names of its files to their summaries; `mode` is that of compression beside that of chunks:
+    "FILE", "MESSAGE" or "".
+    """
+    text = to_yaml({"rosbag2_bagfile_information": _information(summaries, mode)})
     with new_file(Path(folder) / "metadata.yaml") as file:
         file.write(text.encode())
 
@@ -28,7 +32,7 @@ def to_yaml(data):
     return yaml.dump(data, Dumper=_Plain, sort_keys=False, allow_unicode=True)
 
 
-def _information(summaries):
+def _information(summaries, mode):
     topics, counts = {}, Counter()
     for summary in summaries.values():
         for channel, type_name, count in channels(summary):
@@ -46,34 +50,20 @@ def _information(summaries):
                     "name": topic,
                     "type": type_name,
                     "serialization_format": channel.message_encoding,
-                    "offered_qos_profiles": _offered_qos(channel),
+                    "offered_qos_profiles": declared_qos(channel),
                     "type_description_hash": channel.metadata.get("topic_type_hash", ""),
                 },
                 "message_count": counts[topic],
             }
             for topic, (type_name, channel) in topics.items()
         ],
-        "compression_format": "",
-        "compression_mode": "",
+        "compression_format": "zstd" if mode else "",
+        "compression_mode": mode,
         "relative_file_paths": list(summaries),
         "files": [{"path": name, **_span([summary.statistics])} for name, summary in summaries.items()],
         "custom_data": None,
         "ros_distro": "jazzy",
     }
-
-
-def declared_qos(channel):
-    """Return what a channel declares of its QoS, as it stands; raises `yaml_text.YamlTextError`."""
-    return load(channel.metadata.get("offered_qos_profiles", ""), f"QoS of {channel.topic}")
-
-
-def _offered_qos(channel):
-    """Return a channel's QoS records; none where there is no readable text of them."""
-    try:
-        profiles = declared_qos(channel)
-    except YamlTextError:
-        return []  # of other tools it may be anything
-    return profiles if isinstance(profiles, list) else []
 
 
 def _span(statistics):

@@ -1,83 +1,176 @@
 """Opens a bag for playing: raw messages in order of time, and the quality of service with which they came."""
 
-from collections import Counter
+from contextlib import ExitStack
+from tempfile import TemporaryFile
+from typing import NamedTuple
 
+import numpy as np
 from mcap.exceptions import InvalidMagic
-from rosbags.highlevel import AnyReader, AnyReaderError
-from rosbags.interfaces import QosDurability, QosReliability
-from rosbags.rosbag2 import ReaderError
+from mcap.records import Channel, Schema
 
 from ..numerics.units import NANO
 from .errors import BagError
 from .files import bag_files
-from .limits import TooLarge, largest_record, too_large
+from .limits import TooLarge, too_large
 from .mcap_records import DAMAGE
 from .mcap_summary import examine
-from .metadata import declared_qos
+from .mcap_walk import Walk
+from .opening import most_unfolded, opened
+from .qos import BEST_EFFORT, TRANSIENT_LOCAL, offers
+from .unfolding import unfold_messages
 
 _LATEST = ((1 << 31) - 1) * NANO  # ns, the last second that a message of ROS 2 can name
-# what rosbags' reader does with definitions and records that it does not expect
-_READ_ERRORS = (OSError, AnyReaderError, ReaderError, *DAMAGE, LookupError, TypeError, AttributeError, AssertionError)
+_PLACE = np.dtype([("time", "<i8"), ("start", "<i8"), ("size", "<u4"), ("connection", "<u4")])
 
 
-def open_bag(path):
-    """Return an open `rosbags.highlevel.AnyReader` of a bag folder, to be closed by the caller.
+class Connection(NamedTuple):
+    """A topic as one publisher announced it."""
 
-    That reader trusts a bag, so the whole of it is examined before.
+    number: int  # in its bag
+    topic: str
+    encoding: str  # of the messages: "cdr" of all that ROS 2 can play
+    schema: Schema | None
+    reliability: frozenset  # of its offers, in rosbag2's words
+    durability: frozenset
+
+    @property
+    def type_name(self):
+        """Name of the type, "" where none is told."""
+        return self.schema.name if self.schema else ""
+
+    @property
+    def is_latched(self):
+        """Whether its messages were kept for late joiners (transient local)."""
+        return self.durability == {TRANSIENT_LOCAL}
+
+    @property
+    def is_best_effort(self):
+        """Whether its messages could be lost on their way."""
+        return BEST_EFFORT in self.reliability
+
+
+class OpenBag:
+    """The messages of a bag by time, whatever the order in its files; use as a context manager, or `close` it.
+
+    They lie in an unnamed temporary file.
+
+    Attributes
+    ----------
+    connections : list of Connection
+    start, end : int
+        Times of the first and of the last message of all topics [ns].
 
     Raises
     ------
     BagError
         There is no such bag, it holds no messages, it is damaged, or it cannot be read.
     """
-    files = bag_files(path)
-    for file in files:
-        try:
-            _require_sound(file)
-        except (OSError, TooLarge, ValueError) as error:
-            raise BagError(f"bag {str(path)!r} cannot be read: {error}") from None
-    try:
-        reader = AnyReader(files)
-        reader.open()
-    except _READ_ERRORS as error:
-        raise BagError(f"bag {str(path)!r} cannot be read: {error}") from None
-    flaw = "holds no messages" if not reader.message_count else ""
-    if reader.message_count and reader.end_time > _LATEST:
-        flaw = f"ends at {reader.end_time} ns, accepted is up to {_LATEST}"
-    if flaw:
-        reader.close()
-        raise BagError(f"bag {str(path)!r} {flaw}")
-    return reader
+
+    def __init__(self, path, wanted=lambda topic: True, whole=True):
+        """Read the bag, and keep the messages of topics that are `wanted`; one that is not `whole` as far as it goes."""
+        self.connections, self._places, self._size, self._most, self._times = [], [], 0, 0, []
+        with ExitStack() as undo:
+            self._file = undo.enter_context(TemporaryFile())
+            try:
+                for file in bag_files(path):
+                    if whole:
+                        _require_sound(file)
+                    self._most += most_unfolded(file.stat().st_size)
+                    self._read(file, wanted)
+            except (OSError, TooLarge, *DAMAGE) as error:
+                raise BagError(f"bag {str(path)!r} cannot be read: {error}") from None
+            if not self._times:
+                raise BagError(f"bag {str(path)!r} holds no messages")
+            self.start, self.end = min(self._times), max(self._times)
+            if self.end > _LATEST:
+                raise BagError(f"bag {str(path)!r} ends at {self.end} ns, accepted is up to {_LATEST}")
+            self._file.flush()
+            undo.pop_all()
+        places = np.concatenate(self._places or [np.empty(0, _PLACE)])
+        self._places = places[np.argsort(places["time"], kind="stable")]
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def close(self):
+        """Forget the messages."""
+        self._file.close()
+
+    def messages(self, connections, start=None, stop=None):
+        """Yield connection, time [ns] and bytes of messages from `start` on and before `stop`, in order of time."""
+        places = self.places(connections)
+        begin, end = np.searchsorted(self._places["time"][places], (start or 0, _LATEST + 1 if stop is None else stop))
+        for place in places[begin:end].tolist():
+            found = self._places[place]
+            yield self.connections[found["connection"]], int(found["time"]), self.message(place)
+
+    def places(self, connections):
+        """Return the places (k,) of the messages of some connections, in order of time, for `message`."""
+        numbers = [connection.number for connection in connections]
+        return np.flatnonzero(np.isin(self._places["connection"], numbers))
+
+    def message(self, place):
+        """Return the bytes of a message."""
+        found = self._places[place]
+        self._file.seek(found["start"])
+        return self._file.read(found["size"])
+
+    def _read(self, file, wanted):
+        """Take in the messages of a file; ids of schemas and channels are its own."""
+        schemas, numbers = {}, np.full(1 << 16, -1)
+        with opened(file) as stream:
+            for part in Walk(stream).parts():
+                for record in part.others:
+                    if isinstance(record, Schema):
+                        schemas[record.id] = record
+                    elif isinstance(record, Channel):
+                        numbers[record.id] = self._announced(record, schemas, wanted)
+                head = part.messages.head
+                if len(head):
+                    self._times += [int(head["log_time"].min()), int(head["log_time"].max())]
+                connection = numbers[head["channel"]]
+                kept = connection >= 0
+                if kept.any():
+                    self._keep(part, kept, connection[kept])
+
+    def _announced(self, channel, schemas, wanted):
+        """Return the number of a channel's connection, -1 if its topic is not wanted."""
+        offered = offers(channel)
+        number = len(self.connections)
+        self.connections.append(
+            Connection(
+                number,
+                channel.topic,
+                channel.message_encoding,
+                schemas.get(channel.schema_id),
+                frozenset(each.reliability for each in offered),
+                frozenset(each.durability for each in offered),
+            )
+        )
+        return number if wanted(channel.topic) else -1
+
+    def _keep(self, part, kept, connection):
+        head, start, size = (each[kept] for each in part.messages)
+        data, start, size = unfold_messages(part.data, start, size)
+        ends = np.cumsum(size)
+        if self._size + ends[-1] > self._most:
+            raise too_large("what the bag holds", self._size + int(ends[-1]))
+        places = np.empty(len(start), _PLACE)
+        places["time"], places["size"], places["connection"] = head["log_time"], size, connection
+        places["start"] = self._size + ends - size
+        self._file.write(np.concatenate([data[at : at + length] for at, length in zip(start, size, strict=True)]).data)
+        self._places.append(places)
+        self._size += int(ends[-1])
 
 
 def _require_sound(file):
-    """Raise ValueError or TooLarge unless a file is whole, its QoS readable, and order of time takes little memory."""
+    """Raise ValueError or TooLarge unless a file is whole."""
     try:
         findings = examine(file)
     except InvalidMagic:
         raise ValueError(f"{file.name!r} is no MCAP file") from None
     if findings.flaw:
         raise ValueError(f"{file.name!r} is {findings.flaw}; `trackvib bag repair` completes it")
-    for channel in findings.channels:
-        declared_qos(channel)
-    # all chunks that overlap in time are held at once
-    change = Counter()
-    for chunk in findings.chunks:
-        change[chunk.message_start_time, 0] += chunk.uncompressed_size
-        change[chunk.message_end_time, 1] -= chunk.uncompressed_size
-    together = 0
-    for _, size in sorted(change.items()):
-        together += size
-        if together > largest_record():
-            raise too_large(f"what file {file.name!r} holds for one time", together)
-
-
-def is_latched(connection):
-    """Return whether the messages of a connection were kept for late joiners (transient local)."""
-    offers = connection.ext.offered_qos_profiles
-    return bool(offers) and all(offer.durability == QosDurability.TRANSIENT_LOCAL for offer in offers)
-
-
-def is_best_effort(connection):
-    """Return whether the messages of a connection could be lost on their way."""
-    return any(offer.reliability == QosReliability.BEST_EFFORT for offer in connection.ext.offered_qos_profiles)

@@ -1,15 +1,17 @@
 """Messages of a bag as bytes, one by one, in the order in which they were recorded."""
 
+from dataclasses import replace
 from typing import NamedTuple
 
 from mcap.records import Channel, Message, Schema
-from mr_mount_controller.node_base.cdr import leading_stamp
 
 from .errors import BagError
 from .files import bag_files
 from .limits import TooLarge
 from .mcap_records import DAMAGE
 from .mcap_walk import Walk
+from .opening import opened
+from .unfolding import unfold_message
 
 NO_SCHEMA = 0  # number with which MCAP marks a channel without a definition, of a JSON log for instance
 
@@ -34,7 +36,8 @@ class RawMessage(NamedTuple):
 def raw_records(path):
     """Yield a `RawMessage` for each message and each announcement of a bag, and mcap's records of everything else.
 
-    Little is held in memory. Chunks that are damaged are left out, and a bag that is cut short ends where it does.
+    Little is held in memory. Compressed messages are unfolded, chunks that are damaged are left out, and a bag that is
+    cut short ends where it does.
 
     Raises
     ------
@@ -43,10 +46,17 @@ def raw_records(path):
     """
     for file in bag_files(path):
         try:
-            with file.open("rb") as stream:
-                yield from walked_records(Walk(stream))
+            with opened(file) as stream:
+                yield from map(_unfolded, walked_records(Walk(stream)))
         except (OSError, TooLarge, *DAMAGE) as error:
             raise BagError(f"bag {str(path)!r} cannot be read: {error}") from None
+
+
+def _unfolded(record):
+    if not isinstance(record, RawMessage) or record.message is None:
+        return record
+    data = unfold_message(record.message.data)
+    return record if data is record.message.data else record._replace(message=replace(record.message, data=data))
 
 
 def walked_records(walk, schemas=(), channels=()):
@@ -77,21 +87,3 @@ def walked_records(walk, schemas=(), channels=()):
                 channels[number] = None, Channel(number, f"/unannounced_{number}", "", {}, NO_SCHEMA)
             data = part.data[begin : begin + length].tobytes()
             yield RawMessage(*channels[number], Message(number, logged, data, published, sequence))
-
-
-def sample_messages(path, chassis, powertrain):
-    """Yield stamp [ns] and both serialised Imu messages of each sample of which a bag holds both topics' message.
-
-    Raises as `raw_records` does.
-    """
-    waiting = {}  # messages without their partner by topic and stamp
-    partner = {chassis: powertrain, powertrain: chassis}
-    for record in raw_records(path):
-        if not isinstance(record, RawMessage) or record.message is None or record.topic not in partner:
-            continue
-        data, stamp = record.message.data, leading_stamp(record.message.data)
-        other = waiting.pop((partner[record.topic], stamp), None)
-        if other is None:
-            waiting[record.topic, stamp] = data
-        else:
-            yield stamp, *((data, other) if record.topic == chassis else (other, data))

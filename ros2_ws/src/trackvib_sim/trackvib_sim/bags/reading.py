@@ -8,11 +8,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from mcap.exceptions import InvalidMagic
 from mcap.records import Channel, Metadata, Schema
 from mr_mount_controller.mounting import MOST_COILS, MOST_MOUNTS, described, undescribed
 from mr_mount_controller.node_base import topics
-from mr_mount_controller.node_base.plain_text import readable
 from rosbags.serde import SerdeError
 
 from ..numerics.units import NANO
@@ -23,8 +21,10 @@ from .files import find_files
 from .limits import TooLarge
 from .mcap_records import DAMAGE
 from .mcap_walk import Walk
+from .opening import how_to_convert, opened
 from .raw_messages import NO_SCHEMA
 from .recording import Answers, Commands, Drive, Inertial, LoopCounts, Mounts, Odometry, Recording
+from .unfolding import unfold_messages
 
 _SENSOR = Columns(
     topics.IMU_TYPE,
@@ -38,7 +38,6 @@ _SENSOR = Columns(
     logged="logged",
 )
 HEADER_TIME, LOG_TIME = TIMES = ("header", "log")  # that may be the time base
-_SETS_ASIDE = "`trackvib bag repair` sets it aside"
 _NUMBERS = {name: (name, (-1,)) for name in ("current", "stiffness", "damping")}
 _VECTORS = {name: (name, (-1, 3)) for name in ("deflection", "velocity", "force")}
 _DRIVE = ("distance", "offset", "wanted_speed", "curvature", "engine_speed", "gear")
@@ -73,6 +72,7 @@ _RARE = {  # read message by message
 _TYPES = {end: columns.type_name for end, columns in COLUMNS.items()} | _RARE
 _FURTHER = topics.imu_topic("")  # stands for the end of every further sensor's topic
 _MOST_FURTHER = 100
+_ROS_1 = "ros1msg"  # encoding of the definitions of ROS 1, whose messages are serialised in another way
 _ANSWERS = ("accepted", "late", "duplicate", "not_finite")  # to samples that were out, among the diagnostics
 # a definition that is damaged or not the one we know gives the others where it is applied
 _READ_ERRORS = (
@@ -114,16 +114,11 @@ def read_recording(
     """
     path, reading = Path(path), _Reading(by_log=time == LOG_TIME)
     found = find_files(path)
-    files, unreadable = found.files, []
+    files = found.files
     try:
         total, done = sum(file.stat().st_size for file in files), 0
         for file in files:
-            try:
-                reading.read(file, lambda end, before=done: on_progress(before + end, total))
-            except InvalidMagic:
-                if len(files) == 1:
-                    raise
-                unreadable.append(file.name)  # a split of which nothing was written
+            reading.read(file, lambda end, before=done: on_progress(before + end, total))
             done += file.stat().st_size
         recording = reading.recording(path)
     except BagError:
@@ -131,8 +126,7 @@ def read_recording(
     except _READ_ERRORS as error:
         raise BagError(f"bag {str(path)!r} cannot be read: {str(error) or type(error).__name__}") from None
     on_progress(total, total)
-    notes = [f"{readable(name)} is empty or no MCAP file, left out; {_SETS_ASIDE}" for name in unreadable]
-    return recording._replace(notes=(*found.notes, *notes))
+    return recording._replace(notes=found.notes)
 
 
 class _Reading:
@@ -141,13 +135,13 @@ class _Reading:
     def __init__(self, by_log):
         self._by_log = by_log
         self._columns, self._further, self._roads, self._texts, self._mountings = {}, {}, {}, {}, {}  # by topic
-        self._loop_counts, self._diagnostics = [], {}
+        self._loop_counts, self._diagnostics, self._ros_1 = [], {}, set()
         self._provenance, self._counts, self._complete = {}, Counter(), True
 
     def read(self, file, on_progress):
         """Read one file; ids of schemas and channels are its own."""
         schemas, channels, definitions = {}, {}, {}
-        with file.open("rb") as stream:
+        with opened(file) as stream:
             walk = Walk(stream)
             for part in walk.parts():
                 _require_undamaged(walk)
@@ -168,11 +162,14 @@ class _Reading:
                     start, size = part.messages.start[of_channel], part.messages.size[of_channel]
                     self._counts[channel.topic] += len(start)
                     end = _end_of(channel.topic)
-                    if end is not None and schema is not None and schema.name == _TYPES.get(end, topics.IMU_TYPE):
+                    if schema is not None and schema.encoding == _ROS_1:
+                        self._ros_1.add(channel.topic)
+                    elif end is not None and schema is not None and schema.name == _TYPES.get(end, topics.IMU_TYPE):
                         if schema.id not in definitions:
                             definitions[schema.id] = Definition(schema.name, schema.encoding, schema.data)
+                        messages = unfold_messages(part.data, start, size)
                         logged = part.messages.head["log_time"][of_channel].astype(np.int64)
-                        self._take(channel.topic, end, definitions[schema.id], part.data, start, size, logged)
+                        self._take(channel.topic, end, definitions[schema.id], *messages, logged)
                 on_progress(part.end)
             _require_undamaged(walk)
             self._complete &= walk.complete
@@ -215,6 +212,11 @@ class _Reading:
         for topic in self._columns | self._roads | self._texts | self._mountings:
             found[_end_of(topic)].append(topic)
         missing = [end for end in _NEEDED if not found[end]]
+        if missing and self._ros_1:
+            raise BagError(
+                f"bag {str(path)!r} holds messages of ROS 1 on {', '.join(sorted(self._ros_1))}; "
+                f"{how_to_convert('FILE.bag')}, where FILE.bag is the bag of ROS 1 from which it was made"
+            )
         if missing:
             raise BagError(f"bag {str(path)!r} holds no {_SENSOR.type_name} on {', '.join(missing)}")
         space = found[topics.CHASSIS_IMU][0].removesuffix(topics.CHASSIS_IMU)

@@ -9,18 +9,21 @@ from typing import NamedTuple
 from mcap.exceptions import InvalidMagic
 from mcap.records import Attachment, Header, Metadata
 from mcap.writer import CompressionType, Writer
+from zstandard import ZstdError
 
 from ..new_files import new_file, set_aside
 from ..yaml_text import YamlTextError, load, read_text
 from .errors import BagError
-from .files import bag_files
+from .files import find_files, unfolded
 from .limits import TooLarge
 from .mcap_summary import examine, summary_of
 from .mcap_walk import Walk
 from .metadata import write_metadata
+from .opening import opened
 from .raw_messages import NO_SCHEMA, RawMessage, walked_records
 from .writing import CHUNK, LIBRARY
 
+NO_MCAP = "empty or no MCAP"  # flaw of a split that is set aside
 _TELL = 1000  # records between two calls of `told`
 
 
@@ -46,7 +49,7 @@ class Repair(NamedTuple):
 def repair(path, told=lambda done, size: None):
     """Complete a bag folder without losing a whole message; returns a `Repair`.
 
-    What is damaged is written anew beside, and kept under its name with `.damaged` behind; what is sound is not
+    A split that is empty or no MCAP is set aside where others are left. What is damaged is written anew beside, and kept under its name with `.damaged` behind; what is sound is not
     touched. `told(done, size)` is called now and then with the bytes that are done of a file.
 
     Raises
@@ -56,15 +59,18 @@ def repair(path, told=lambda done, size: None):
     """
     path = Path(path)
     try:
-        files = bag_files(path)
-        done = [repaired for file in files if (repaired := _repair_file(file, told)) is not None]
-        summaries = {file.name: summary_of(file) for file in files}
+        files, _, _, unreadable = find_files(path)
+        done, found = [RepairedFile(file, NO_MCAP, 0, None, [], 0, set_aside(file)) for file in unreadable], {}
+        for file in files:
+            repaired, findings = _repair_file(file, told)
+            done += [repaired] if repaired else []
+            found[(unfolded(file) if repaired else file).name] = findings
         metadata = path / "metadata.yaml"
-        fits = _metadata_fits(metadata, summaries)
+        fits = _metadata_fits(metadata, found)
         if not fits:
             if metadata.is_symlink() or metadata.exists():
                 set_aside(metadata)
-            write_metadata(path, summaries)
+            write_metadata(path, {name: each.summary for name, each in found.items()}, _mode(found))
     except FileExistsError as error:
         raise BagError(str(error)) from None
     except OSError as error:
@@ -73,20 +79,27 @@ def repair(path, told=lambda done, size: None):
 
 
 def _repair_file(file, told):
+    """Return the `RepairedFile`, or None of a sound one, and the `Findings` of what is there then."""
     size = file.stat().st_size
     with file.open("rb") as stream, _alone(stream):
         try:
             findings = examine(file, lambda done: told(done // 2, size))
             if not findings.flaw:
-                return None
-            return _written_anew(file, stream, findings, lambda done: told((size + done) // 2, size))
+                return None, findings
+            repaired = _written_anew(file, findings, lambda done: told((size + done) // 2, size))
+            return repaired, examine(unfolded(file))
         except InvalidMagic:
             raise BagError(f"{str(file)!r} is no MCAP file") from None
-        except TooLarge as error:
+        except (TooLarge, ZstdError) as error:
             raise BagError(f"{str(file)!r} cannot be repaired: {error}") from None
 
 
-def _written_anew(file, stream, findings, told):
+def _written_anew(file, findings, told):
+    with opened(file) as stream:
+        return _written_from(stream, file, findings, told)
+
+
+def _written_from(stream, file, findings, told):
     walk, summary = Walk(stream), summary_of(file)
     # what the index announces: the chunk that does may be damaged
     known = () if summary is None else (summary.schemas.values(), summary.channels.values())
@@ -94,13 +107,14 @@ def _written_anew(file, stream, findings, told):
     whole = walked_records(walk, *known)
     aside = file.with_name(f"{file.name}.damaged")
     try:
-        with new_file(file, before=lambda: set_aside(file)) as target:
+        with new_file(unfolded(file), before=lambda: set_aside(file)) as target:
             messages = _copy(whole, target, compression, lambda: told(stream.tell()))
     except BaseException:
         if aside.exists() and not file.exists():  # in between: a bag must not be left without its file
             aside.rename(file)
         raise
-    lost = None if summary is None else max(summary.statistics.message_count - messages, 0)
+    counted = summary is not None and summary.statistics is not None
+    lost = None if not counted else max(summary.statistics.message_count - messages, 0)
     return RepairedFile(file, findings.flaw, messages, lost, walk.damage, walk.unread, aside)
 
 
@@ -166,11 +180,18 @@ class _Copied:
         return new
 
 
-def _metadata_fits(metadata, summaries):
+def _mode(found):
+    """Return how a bag's files are compressed beside their chunks, as rosbag2 calls it."""
+    if any(Path(name) != unfolded(Path(name)) for name in found):
+        return "FILE"
+    return "MESSAGE" if any(each.compressed for each in found.values()) else ""
+
+
+def _metadata_fits(metadata, found):
     """Return whether `metadata.yaml` is there and speaks of these files and their messages."""
     try:
         told = load(read_text(metadata), metadata.name)["rosbag2_bagfile_information"]
-        messages = sum(summary.statistics.message_count for summary in summaries.values())
-        return bool(told["relative_file_paths"] == list(summaries) and told["message_count"] == messages)
+        messages = sum(each.summary.statistics.message_count for each in found.values())
+        return bool(told["relative_file_paths"] == list(found) and told["message_count"] == messages)
     except (YamlTextError, KeyError, TypeError, IndexError):
         return False

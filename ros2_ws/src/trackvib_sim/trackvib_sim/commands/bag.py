@@ -5,7 +5,7 @@ from rich.progress import Progress
 from rich.table import Table
 
 from ..bags.contents import contents
-from ..bags.repair import repair
+from ..bags.repair import NO_MCAP, repair
 from ..console import Terminal
 from ..numerics.units import NANO
 
@@ -25,6 +25,7 @@ def run_info(path):
         f"{found.counts.total()} messages from {found.first / NANO:.3f} to {found.last / NANO:.3f} s",
         f"{found.size / 1e6:.1f} MB in {', '.join(file.name for file in found.files)}; compression "
         f"{', '.join(sorted(found.compression)) or 'none'}",
+        *found.notes,
         f"provenance: {', '.join(map(shortened, found.provenance)) or 'none'}",
         f"attachments: {', '.join(map(shortened, found.attachments)) or 'none'}",
     ):
@@ -40,15 +41,18 @@ def run_repair(path):
     for file in done.files:
         for line in _words(file):
             console.print(line, soft_wrap=True)
+    if not done.files:
+        console.print(f"{path}: sound{'' if done.metadata else ', nothing to do'}", soft_wrap=True)
     if done.metadata:
         console.print("metadata.yaml written", soft_wrap=True)
-    elif not done.files:
-        console.print(f"{path}: sound, nothing to do", soft_wrap=True)
 
 
 def _words(file):
     """Yield what became of a `RepairedFile`, line by line."""
     yield f"{file.file}: was {file.flaw}"
+    if file.flaw == NO_MCAP:
+        yield f"  set aside as {file.original.name}"
+        return
     for damage in file.damage[:_MOST_DAMAGE]:
         yield f"  {damage}"
     if len(file.damage) > _MOST_DAMAGE:

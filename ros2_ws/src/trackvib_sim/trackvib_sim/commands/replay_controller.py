@@ -1,20 +1,20 @@
 """`trackvib replay --controller`: recorded accelerations into a live controller, its currents beside the recorded."""
 
 import json
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 
 import numpy as np
 from mr_mount_controller.node_base.qos import LOOP_WRITER_QOS
 from mr_mount_controller.node_base.topics import CHASSIS_IMU, COIL_CURRENT, COIL_CURRENT_TYPE, POWERTRAIN_IMU
 
 from ..analysis.replay_pictures import currents_picture
-from ..analysis.stamps import period_of
 from ..bags.copying import copy_bag
 from ..bags.errors import BagError
 from ..bags.files import called
+from ..bags.playing import OpenBag
 from ..bags.qos import qos_record
-from ..bags.raw_messages import sample_messages
 from ..bags.reading import read_recording
+from ..bags.samples import paired_samples
 from ..bags.writing import BagWriter
 from ..console import followed
 from ..nodes.controller_trial import ControllerTrial
@@ -23,6 +23,7 @@ from ..numerics.units import NANO
 from .result_folder import CommandError, all_or_nothing
 from .run import own_domain
 
+_GAP = 2.5  # times the median step
 REPLAYED = "/replayed/current"  # topic of the new answers
 
 
@@ -39,13 +40,10 @@ def run_replay_controller(bag, law, out, console):
     """
     recording = read_recording(bag)
     recording.require()
-    samples = len(recording.chassis.stamp)
     if REPLAYED in recording.counts:
         made_of = recording.provenance.get("replay", {}).get("bag", "the bag it was made of")
         raise BagError(f"bag {str(bag)!r} is the result of such a replay; give {made_of} instead")
-    if samples < 2:
-        raise BagError(f"bag {str(bag)!r} holds a single sample, at least two are needed")
-    summary = {"bag": str(bag), "controller": law or "external", "samples": samples}
+    summary = {"bag": str(bag), "controller": law or "external", "samples": len(recording.chassis.stamp)}
     title = f"{called(bag)} into {law or 'a controller'}"
     with own_domain(), all_or_nothing(out) as folder:
         replayed, interrupt = _replay_into_bag(recording, law, folder, console)
@@ -81,24 +79,55 @@ def _replay_into_bag(recording, law, folder, console):
 
 def _replay(recording, law, writer, replayed, folder, console):
     """Add the controller's currents by stamp [ns] to `replayed`, and to the bag, as they come."""
-    topics, stamps = recording.topics, recording.chassis.stamp
-    with (
-        _controller(law, round(NANO / period_of(stamps)), folder) as check,
-        ControllerTrial(recording.mounting) as trial,
-    ):
+    topics = recording.topics[CHASSIS_IMU], recording.topics[POWERTRAIN_IMU]
+    with ExitStack() as stack:
+        samples = paired_samples(
+            stack.enter_context(OpenBag(recording.path, topics.__contains__, whole=False)), *topics
+        )
+        _tell_pairing(samples, len(recording.chassis.stamp), topics, console)
+        check, last_words = stack.enter_context(_controller(law, _rate(samples.stamp), folder))
+        trial = stack.enter_context(ControllerTrial(recording.mounting))
         if law is None:
             console.print(f"waiting for a controller that listens to {CHASSIS_IMU} or {POWERTRAIN_IMU} and answers on "
                           f"{COIL_CURRENT}", soft_wrap=True)  # fmt: skip
         trial.wait_for_controller(check)
         writer.add_topic(REPLAYED, COIL_CURRENT_TYPE, [qos_record(LOOP_WRITER_QOS)], trial.type_hash())
-        samples = sample_messages(recording.path, topics[CHASSIS_IMU], topics[POWERTRAIN_IMU])
-        for stamp, *imus in followed(samples, "asking the controller", console, len(stamps)):
+        for stamp, *imus in followed(samples.messages, "asking the controller", console, len(samples.stamp)):
             answer = trial.answer(stamp, *imus)
             if answer is None:
                 check()
             else:
                 writer.write(REPLAYED, stamp, answer.data)
                 replayed[stamp] = answer.current
+        if not replayed:
+            counted = (
+                ", ".join(f"{count} {name}" for name, count in trial.counts.items() if count) or "none came at all"
+            )
+            raise CommandError(
+                f"the controller answered none of {len(samples.stamp)} samples; answers: {counted}. sample_stamp of an "
+                f"answer must be the stamp of its Imu message{last_words()}"
+            )
+
+
+def _tell_pairing(samples, recorded, topics, console):
+    """Say which samples the controller gets, where these are not all as they were recorded."""
+    chassis, powertrain = topics
+    if len(samples.stamp) < 2:
+        raise CommandError(f"{len(samples.stamp)} of {recorded} samples of {chassis} have one of {powertrain} within half a "
+                           "period; at least two are needed")  # fmt: skip
+    if len(samples.stamp) < recorded or samples.apart.any():
+        console.print(
+            f"{len(samples.stamp)} of {recorded} samples of {chassis} have one of {powertrain} within half a period, "
+            f"{np.abs(samples.apart).max() / 1e6:.3g} ms apart at most; the controller gets both with the stamp of the "
+            "former",
+            soft_wrap=True,
+        )
+
+
+def _rate(stamps):
+    """Return the rate of increasing stamps [ns] in Hz, gaps aside; steps that alternate, of whole ms say, are none."""
+    steps = np.diff(stamps)
+    return float(NANO / steps[steps <= _GAP * np.median(steps)].mean())
 
 
 def _answers(recording):
@@ -112,9 +141,9 @@ def _answers(recording):
 
 @contextmanager
 def _controller(law, rate, folder):
-    """Run a stock controller, unless the user does; gives what raises `CommandError` if it has ended."""
+    """Run a stock controller, unless the user does; gives what raises `CommandError` if it has ended, and its words."""
     if law is None:
-        yield lambda: None
+        yield lambda: None, lambda: ""
         return
     (folder / "log").mkdir()
     given = {"controller": {"law": law, "sample_rate": rate, "wait_for_recorder": False}}
@@ -125,7 +154,7 @@ def _controller(law, rate, folder):
             raise CommandError(f"'controller' ended; it said:\n{processes.last_words('controller')}")
 
     try:
-        yield check
+        yield check, lambda: f"; it said:\n{processes.last_words('controller')}"
     finally:
         processes.stop()
 

@@ -8,14 +8,14 @@ from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.interrupts import put_off_interrupts
 from mr_mount_controller.node_base.listener import Listener
 from mr_mount_controller.node_base.loop_node import start_ros
-from mr_mount_controller.node_base.packed_message import MessageReader
 from mr_mount_controller.node_base.patience import Patience
-from mr_mount_controller.node_base.qos import LATCHED_QOS, LOOP_QOS, LOOP_WRITER_QOS
+from mr_mount_controller.node_base.qos import LATCHED_QOS, LOOP_WRITER_QOS
 from rclpy.experimental import EventsExecutor
 from sensor_msgs.msg import Imu
-from trackvib_msgs.msg import CoilCurrent, MountDescription
+from trackvib_msgs.msg import MountDescription
 
 from ..simulation.lockstep import Lockstep
+from .answers import Answers, misfits
 from .messages import mount_description
 from .partners import Gathering
 
@@ -47,15 +47,8 @@ class ControllerTrial:
         self._node = rclpy.create_node("replay")
         self._imus = [self._node.create_publisher(Imu, topic, LOOP_WRITER_QOS)
                       for topic in (topics.CHASSIS_IMU, topics.POWERTRAIN_IMU)]  # fmt: skip
-        self._reader = MessageReader(CoilCurrent, "sample_stamp", {"current": self._mounting.coils})
-        self._answers = Listener(
-            self._node,
-            CoilCurrent,
-            topics.COIL_CURRENT,
-            self._on_answer,
-            LOOP_QOS,
-            lambda data: (data, *self._reader.read(data)),
-        ).subscription
+        listen = lambda *how: Listener(self._node, *how).subscription  # noqa: E731
+        self._answers = Answers(self._node, self._mounting.coils, self._on_answer, listen)
         self._executor = EventsExecutor()
         self._executor.add_node(self._node)
         self._patience = Patience(self._spin)
@@ -73,14 +66,17 @@ class ControllerTrial:
 
     def wait_for_controller(self, check):
         """Wait until a controller listens and answers; `check()` is called meanwhile and may raise."""
-        gathering = Gathering(self._present)
+        gathering, told = Gathering(self._present), set()
         while not gathering.complete():
             check()
+            for misfit in set(misfits(self._node, self._imus)) - told:
+                told.add(misfit)
+                self._node.get_logger().warning(misfit)
             self._patience.look(_TICK)
 
     def type_hash(self):
         """Return the hash of the answers' type, as bags note it."""
-        return str(self._node.get_publishers_info_by_topic(self._answers.topic_name)[0].topic_type_hash)
+        return str(self._node.get_publishers_info_by_topic(self._answers.topic)[0].topic_type_hash)
 
     def answer(self, stamp, chassis, powertrain):
         """Publish both Imu messages (bytes) of a sample; returns the `Answer`, or None if none comes in time.
@@ -104,7 +100,12 @@ class ControllerTrial:
 
     def _present(self):
         listeners = sum(publisher.get_subscription_count() for publisher in self._imus)
-        return self._answers.get_publisher_count(), listeners
+        return self._answers.count(), listeners
+
+    @property
+    def counts(self):
+        """How often each outcome of an answer happened."""
+        return self._lockstep.counts
 
     def _on_answer(self, answer):
         data, stamp, current = answer

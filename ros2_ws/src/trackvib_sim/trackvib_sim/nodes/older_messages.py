@@ -5,25 +5,30 @@ from importlib import import_module
 from mr_mount_controller.node_base.cdr import LayoutError
 from mr_mount_controller.node_base.definitions import installed_definition
 from rclpy.serialization import serialize_message
-from rosbags.interfaces import MessageDefinitionFormat
 from rosbags.serde import SerdeError
 from rosidl_parser.definition import AbstractNestedType, NamespacedType
 
-from ..bags.definitions import Definition
-
-_ENCODINGS = {MessageDefinitionFormat.MSG: "ros2msg", MessageDefinitionFormat.IDL: "ros2idl"}
+from ..bags.definitions import Definition, UnreadableDefinition
 
 
-def renewal(connection, kind):
+def renewal(schema, kind):
     """Return what makes, of a message's bytes in a bag, those of the installed type `kind`; None if they are the same.
 
-    Fields are known by their names; those that the bag does not have stay at their defaults. `connection` is that of
-    the bag's reader. What is returned raises `LayoutError` where a message does not fit.
+    Fields are known by their names; those that the bag does not have stay at their defaults. `schema` is mcap's, of the
+    bag. What is returned raises `LayoutError` where a message does not fit.
+
+    Raises
+    ------
+    UnreadableDefinition
+        The bag's definition is none.
     """
+    if not schema.data.strip():  # not told
+        return None
     try:
-        encoding, text = _ENCODINGS[connection.msgdef.format], connection.msgdef.data.encode()
-        definition, installed = Definition(connection.msgtype, encoding, text), installed_definition(kind)
-    except (KeyError, LayoutError):  # nobody can tell
+        definition, installed = Definition(schema.name, schema.encoding, schema.data), installed_definition(kind)
+    except UnreadableDefinition:
+        raise
+    except LayoutError:  # nobody can tell
         return None
     if definition.kind == installed:
         return None

@@ -61,6 +61,11 @@ class SimulatorOutput:
         self._vehicle_out.publish(String(data=self._vehicle_text))
         self._drive_file_out.publish(String(data=self._drive_text))
 
+    @property
+    def loop_publishers(self):
+        """Of the Imu of the chassis and of the powertrain."""
+        return tuple(self._loop_out)
+
     def listeners(self):
         """Return how many listen to the Imu of the chassis and of the powertrain."""
         return [publisher.get_subscription_count() for publisher in self._loop_out]

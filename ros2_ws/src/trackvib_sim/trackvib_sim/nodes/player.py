@@ -4,11 +4,13 @@ import sys
 import time
 from collections import deque
 from fnmatch import fnmatchcase
+from functools import partial
 from itertools import groupby
 
 from mr_mount_controller.node_base.cdr import LayoutError
 from mr_mount_controller.node_base.loop_node import LoopNode, NodeError, run_node
 from mr_mount_controller.node_base.parameters import Parameter, ParameterError
+from mr_mount_controller.node_base.plain_text import readable
 from mr_mount_controller.node_base.qos import CLOCK_QOS
 from mr_mount_controller.node_base.topics import CLOCK
 from rclpy.duration import Duration
@@ -18,7 +20,7 @@ from rosgraph_msgs.msg import Clock
 
 from ..bags.errors import BagError
 from ..bags.limits import LARGEST_CHUNKS, largest_chunk
-from ..bags.playing import is_best_effort, is_latched, open_bag
+from ..bags.playing import OpenBag
 from ..numerics.units import NANO
 from .messages import message_type
 from .older_messages import renewal
@@ -37,6 +39,7 @@ PARAMETERS = (
     ),
 )
 _DEPTH = 1000  # messages that may wait, or are kept for late joiners; the bag does not tell
+_PLAYED = ("cdr", "")  # encodings of messages; of older recorders' it is not told
 _CLOCK_STEP = NANO // 100  # ns
 _FLUSH = Duration(seconds=2)  # for the last messages to arrive
 _REPEAT = 0.5  # s of wall time after which a player that stands still tells the time again
@@ -56,19 +59,15 @@ class PlayerNode(LoopNode):
         try:
             if not self.settings["bag"]:
                 raise ParameterError("player: parameter 'bag' is empty, accepted is the place of a bag")
-            self._reader = open_bag(self.settings["bag"])
+            self._bag = OpenBag(self.settings["bag"], self._is_wanted)
         except BagError as error:
             raise NodeError(str(error)) from None
         self._time, self._end = self._span()
         self._begin = self._time
-        self._connections = self._chosen()
         self._outputs = {}  # by topic in the bag
         self._renewals = {}  # of connections whose type has changed since, by their numbers
-        for connection in self._connections:
-            if connection.topic not in self._outputs:
-                self._outputs[connection.topic] = self._publisher(connection)
-            if renew := renewal(connection, message_type(connection.msgtype)):
-                self._renewals[id(connection)] = renew
+        self._misfits = set()  # topics with messages that cannot be played
+        self._connections = self._playable(self._chosen())
         self._clock_out = self.create_publisher(Clock, CLOCK, CLOCK_QOS)
         self._origin = 0.0  # wall time at which the time of the bag would be zero, s
 
@@ -91,11 +90,11 @@ class PlayerNode(LoopNode):
 
     def close(self):
         """Close the bag."""
-        self._reader.close()
+        self._bag.close()
 
     def _span(self):
         """Return begin and end [ns] in the time of the bag."""
-        first, last = self._reader.start_time, self._reader.end_time - 1
+        first, last = self._bag.start, self._bag.end
         length = (last - first) / NANO
         start, end = self.settings["start"], self.settings["end"] or length
         if start > length:
@@ -104,29 +103,49 @@ class PlayerNode(LoopNode):
             raise ParameterError(f"player: parameter 'end' is {end} s, accepted is 0 or from start, {start} s, on")
         return first + round(start * NANO), min(first + round(end * NANO), last)
 
-    def _chosen(self):
-        patterns = [pattern.removeprefix("/") for pattern in self.settings["topics"]]
-        chosen = []
-        for pattern in patterns:
-            matching = [c for c in self._reader.connections if fnmatchcase(c.topic.removeprefix("/"), pattern)]
-            if not matching:
-                there = ", ".join(sorted(c.topic for c in self._reader.connections))
-                raise ParameterError(f"player: parameter 'topics': the bag has no topic {pattern!r}, it has {there}")
-            chosen += matching
-        return [c for c in self._reader.connections if c in chosen and c.topic != CLOCK]
+    def _is_wanted(self, topic):
+        return topic != CLOCK and any(map(partial(_matches, topic), self.settings["topics"]))
 
-    def _publisher(self, connection):
-        qos = QoSProfile(depth=_DEPTH)
-        if is_latched(connection):
-            qos.durability = QoSDurabilityPolicy.TRANSIENT_LOCAL
-        if is_best_effort(connection):
-            qos.reliability = QoSReliabilityPolicy.BEST_EFFORT
-        try:
-            kind = message_type(connection.msgtype)
-            return self.create_publisher(kind, connection.topic.removeprefix("/"), qos)
-        except (ValueError, NameValidationException) as error:
-            reason = str(error).splitlines()[0]
-            raise NodeError(f"{connection.topic} cannot be played: {reason}") from None
+    def _chosen(self):
+        there = sorted({connection.topic for connection in self._bag.connections})
+        for pattern in self.settings["topics"]:
+            if not any(_matches(topic, pattern) for topic in there):
+                raise ParameterError(
+                    f"player: parameter 'topics': the bag has no topic {pattern.removeprefix('/')!r}, "
+                    f"it has {', '.join(there)}"
+                )
+        return [connection for connection in self._bag.connections if self._is_wanted(connection.topic)]
+
+    def _playable(self, connections):
+        """Make publishers, and return the connections that can be played; the others are named once."""
+        played, left_out = [], {}
+        for connection in connections:
+            try:
+                self._prepare_output(connection)
+            except (ValueError, NameValidationException) as error:
+                left_out.setdefault(connection.topic, str(error).splitlines()[0])
+            else:
+                played.append(connection)
+        for topic, reason in left_out.items():
+            self.get_logger().warning(f"{readable(topic)} is left out: {readable(reason)}")
+        if connections and not played:
+            raise NodeError(f"nothing of bag {self.settings['bag']!r} can be played")
+        return played
+
+    def _prepare_output(self, connection):
+        """Make what plays a connection; raises ValueError or NameValidationException where nothing can."""
+        if connection.encoding not in _PLAYED:
+            raise ValueError(f"its messages are in {connection.encoding!r}, accepted is cdr")
+        kind = message_type(connection.type_name)
+        renew = renewal(connection.schema, kind)
+        output = self._outputs.get(connection.topic)
+        if output is None:
+            output = self.create_publisher(kind, connection.topic.removeprefix("/"), _qos(connection))
+            self._outputs[connection.topic] = output
+        elif output.msg_type is not kind:
+            raise ValueError(f"{connection.type_name} is its second type")
+        if renew:
+            self._renewals[connection.number] = renew
 
     def _subscribers(self):
         return [sum(publisher.get_subscription_count() for publisher in self._outputs.values())]
@@ -136,7 +155,7 @@ class PlayerNode(LoopNode):
         self._time, tick = self._begin, self._begin
         self._publish_earlier()
         self._origin = time.perf_counter() - self._begin / NANO / self.settings["rate"]
-        messages = self._reader.messages(self._connections, start=self._begin, stop=self._end + 1)
+        messages = self._bag.messages(self._connections, start=self._begin, stop=self._end + 1)
         for stamp, instant in groupby(messages, key=lambda message: message[1]):
             while tick < stamp:
                 if not self._wait_until(tick):
@@ -153,24 +172,33 @@ class PlayerNode(LoopNode):
 
     def _publish_earlier(self):
         """Publish what was kept for late joiners before the begin."""
-        latched = [connection for connection in self._connections if is_latched(connection)]
-        if self._begin == self._reader.start_time or not latched:
+        latched = [connection for connection in self._connections if connection.is_latched]
+        if self._begin == self._bag.start or not latched:
             return
         kept = {connection.topic: deque(maxlen=_DEPTH) for connection in latched}
-        for connection, _, data in self._reader.messages(latched, stop=self._begin):
-            kept[connection.topic].append((connection, bytes(data)))
+        for connection, _, data in self._bag.messages(latched, stop=self._begin):
+            kept[connection.topic].append((connection, data))
         for messages in kept.values():
             for connection, data in messages:
                 self._publish(connection, data)
 
     def _publish(self, connection, data):
-        data = bytes(data)
-        if renew := self._renewals.get(id(connection)):
+        if renew := self._renewals.get(connection.number):
             try:
                 data = renew(data)
             except LayoutError as error:
-                raise NodeError(f"{connection.topic} cannot be played: {error}") from None
+                self._leave_out(connection, error)
+                return
         self._outputs[connection.topic].publish(data)
+
+    def _leave_out(self, connection, error):
+        """Say once a topic that a message of it cannot be played."""
+        if connection.topic not in self._misfits:
+            self._misfits.add(connection.topic)
+            self.get_logger().warning(
+                f"a message on {connection.topic} is left out, as {connection.type_name} it does not fit: {error}; so "
+                "are further ones"
+            )
 
     def _wait_until(self, stamp):
         """Wait for a time of the bag [ns], however long the player is paused; returns whether to go on."""
@@ -199,6 +227,19 @@ class PlayerNode(LoopNode):
         message = Clock()
         message.clock.sec, message.clock.nanosec = seconds, nanoseconds
         self._clock_out.publish(message)
+
+
+def _matches(topic, pattern):
+    return fnmatchcase(topic.removeprefix("/"), pattern.removeprefix("/"))
+
+
+def _qos(connection):
+    qos = QoSProfile(depth=_DEPTH)
+    if connection.is_latched:
+        qos.durability = QoSDurabilityPolicy.TRANSIENT_LOCAL
+    if connection.is_best_effort:
+        qos.reliability = QoSReliabilityPolicy.BEST_EFFORT
+    return qos
 
 
 def main(args=None):

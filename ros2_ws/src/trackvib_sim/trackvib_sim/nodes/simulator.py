@@ -8,13 +8,13 @@ from geometry_msgs.msg import TwistStamped
 from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.listener import Refused
 from mr_mount_controller.node_base.loop_node import LoopNode, NodeError, run_node
-from mr_mount_controller.node_base.packed_message import MessageReader
 from mr_mount_controller.node_base.qos import LOOP_QOS, ROAD_QOS
-from trackvib_msgs.msg import CoilCurrent, RoadProfile
+from trackvib_msgs.msg import RoadProfile
 
 from ..numerics.units import NANO
 from ..simulation.lockstep import Lockstep
 from ..simulation.simulation import RunFailed
+from .answers import Answers, misfits
 from .health import health, summary
 from .output import DIAGNOSTICS_RATE, SimulatorOutput
 from .partners import Gathering, RecorderLag, SecondClock
@@ -37,10 +37,10 @@ class SimulatorNode(LoopNode):
         self._usable = usable
         self._begin_counts()
         self._warned = False  # of several controllers
+        self._misfits = set()  # sentences on listeners that cannot hear, as they were said
 
         self._output = SimulatorOutput(self, self._simulation, vehicle_text, drive_text)
-        answer = MessageReader(CoilCurrent, "sample_stamp", {"current": self._simulation.mounting.coils})
-        self._answers = self.listen(CoilCurrent, topics.COIL_CURRENT, self._on_answer, LOOP_QOS, answer.read)
+        self._answers = Answers(self, self._simulation.mounting.coils, self._on_answer, self.listen)
         self.listen(RoadProfile, topics.ROAD_PROFILE, self._on_road, ROAD_QOS)
         self.listen(TwistStamped, topics.CMD_VEL, self._on_command, LOOP_QOS)
         self._control = RunControl(self, self._time)
@@ -155,18 +155,25 @@ class SimulatorNode(LoopNode):
             f"{topics.POWERTRAIN_IMU} and answers on {topics.COIL_CURRENT}{recorder}"
         )
         gathering = Gathering(self._present)
-        self._stand_until(lambda: gathering.complete() or self._second_clock.ahead)
+        self._stand_until(lambda: gathering.complete() or self._second_clock.ahead, self._tell_misfits)
         if not self.stopping():
             self.get_logger().info("all partners are there, running")
 
     def _present(self):
         recorder = self._recorder is None or self._recorder.there
         listeners = sum(self._output.listeners())
-        return self._simulation.road_is_enough(), self._answers.get_publisher_count(), listeners, recorder
+        return self._simulation.road_is_enough(), self._answers.count(), listeners, recorder
 
-    def _stand_until(self, condition):
+    def _tell_misfits(self):
+        """Say once who listens and cannot hear."""
+        for misfit in set(misfits(self, self._output.loop_publishers)) - self._misfits:
+            self._misfits.add(misfit)
+            self.get_logger().warning(misfit)
+
+    def _stand_until(self, condition, meanwhile=lambda: None):
         """Wait for a condition, a reset or a stop; every now and then say in which state and at what time."""
         while not (condition() or self._control.reset_wanted or self.stopping()):
+            meanwhile()
             self._publish_diagnostics()
             self._output.publish_clock()
             self.spin_until(lambda: condition() or self._control.reset_wanted, _REPEAT)
@@ -236,7 +243,7 @@ class SimulatorNode(LoopNode):
     # --- messages ---
 
     def _on_answer(self, answer):
-        stamp, currents = answer
+        _, stamp, currents = answer
         # who is late is on the way back; who repeats itself or makes no sense is not
         if self._lockstep.offer(stamp, currents) in ("accepted", "late"):
             self._heard = max(self._heard, stamp)
@@ -256,7 +263,7 @@ class SimulatorNode(LoopNode):
         self._output.publish_command(speed, yaw_rate)
 
     def _publish_diagnostics(self):
-        controllers = self._answers.get_publisher_count()
+        controllers = self._answers.count()
         if controllers > 1 and not self._warned:
             self._warned = True
             self.get_logger().warning(f"{controllers} nodes answer on {topics.COIL_CURRENT}; the first answer counts")

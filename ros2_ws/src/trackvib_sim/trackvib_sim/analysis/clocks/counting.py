@@ -34,7 +34,7 @@ class Count(NamedTuple):
 def count_samples(time):
     """Return the `Count` of times (k,), one a sample, in their order; None where they do not go on evenly at all."""
     step = np.diff(time)
-    period, sharp = _period(time, step)
+    period, sharp, beat = _period(time, step)
     if not period > 0.0:
         return None
     ahead = (time - time[0]) / period - np.arange(len(time))
@@ -42,7 +42,7 @@ def count_samples(time):
     if not sharp:
         if scatter > BLURRED:
             return None
-        around = int(np.clip((1.25 * scatter / NOISE) ** 2, 16, min(MOST_AROUND, max(len(time) // 8, 1))))
+        around = int(np.clip(max((1.25 * scatter / NOISE) ** 2, 3.0 * beat), 16, MOST_AROUND))
     places, steps = _steps(ahead, around, sharp)
     lost = steps > 0
     before, unsure = np.zeros(len(time), np.int64), np.zeros(len(time), bool)
@@ -53,13 +53,13 @@ def count_samples(time):
 
 
 def _period(time, step):
-    """Return about the period of times (k,), and whether most steps are one period long."""
+    """Return about the period of times (k,), whether most steps are one period long, and the samples of a beat."""
     usual = float(np.median(step))
     regular = np.abs(step - usual) <= STEADY * usual
-    mean = _mean_step(time)
-    if usual > 0.0 and regular.mean() >= MOSTLY and not _beating(step, usual, regular):
-        return float(step[regular].mean()), True
-    return mean, False
+    beat = _beat(step, usual, regular)
+    if usual > 0.0 and regular.mean() >= MOSTLY and not beat:
+        return float(step[regular].mean()), True, 0.0
+    return _mean_step(time), False, beat
 
 
 def _mean_step(time):
@@ -69,13 +69,16 @@ def _mean_step(time):
     return float(np.median(np.diff(middles))) / many
 
 
-def _beating(step, usual, regular):
-    """Return whether steps are those of coarse stamps at another rate: other steps come as regularly as can be."""
+def _beat(step, usual, regular):
+    """Return after how many samples coarse stamps at another rate make a longer or shorter step; 0 if they do not.
+
+    Such steps come as regularly as can be, those of lost samples never.
+    """
     grain = np.abs(step - usual)[~regular]
     if len(grain) < BEATS or not _mostly_alike(grain, 0.01):
-        return False
+        return 0.0
     apart = np.diff(np.flatnonzero(~regular))
-    return _mostly_alike(apart, 0.02, 1.0)
+    return float(np.median(apart)) if _mostly_alike(apart, 0.02, 1.0) else 0.0
 
 
 def _mostly_alike(values, relative, absolute=0.0):
@@ -98,7 +101,11 @@ def _steps(ahead, around, sharp):
     """Return before which samples, and by how many periods, the stamps run ahead of the count for good, or fall back."""
     if len(ahead) <= 4 * around:
         return np.empty(0, np.int64), np.empty(0, np.int64)
-    level = ndimage.median_filter(ahead, 2 * around + 1, mode="nearest")
+    if sharp:
+        level = ndimage.median_filter(ahead, 2 * around + 1, mode="reflect")
+    else:  # the mean of medians: those of bursts and coarse stamps are whole periods themselves
+        medians = ndimage.median_filter(ahead, around // 2 * 2 + 1, mode="reflect")
+        level = ndimage.uniform_filter1d(medians, around, mode="reflect")
     apart = around + 1
     change = np.zeros(len(ahead))
     change[apart:-apart] = level[2 * apart :] - level[: -2 * apart]
