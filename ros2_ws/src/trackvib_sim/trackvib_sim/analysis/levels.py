@@ -85,7 +85,7 @@ class Levels:
     """What has been summed up of one sensor: over all that counts, over parts of it by name, and in bins of the bag."""
 
     def __init__(self, rate, bins, parts=MappingProxyType({})):
-        self._rate = rate
+        self.rate = self._rate = rate  # of the samples, Hz
         self._bins, self._parts = _Sums(bins), {name: _Sums(each) for name, each in parts.items()}
         self._count = 0
         self._origin = None

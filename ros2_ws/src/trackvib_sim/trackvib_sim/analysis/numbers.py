@@ -246,7 +246,9 @@ class Analysis:
     duration: float = _number("s")  # from the start to the last sample of both sensors
     settle: float = _number("s")  # of the start that does not count
     measured: float = _number("s")  # time that counts
-    rate: float = _number("Hz")  # of the sensors
+    rate: float = _number("Hz")  # of both sensors, the slower one's where they differ
+    rates: dict = _number("Hz")  # sensor -> its own rate
+    origins: dict  # sensor -> where its samples come from and what was done to them, in words
     band: tuple = _number("Hz")  # low and high end of "band-limited"
     speed: float = _number("m/s")  # mean forward speed of the hull
     speed_deviation: float = _number("m/s")  # its standard deviation

@@ -59,8 +59,8 @@ def through(transfer, samples, rate, memory):
     above = frequency > 0.5 * rate * IN_PHASE
     kept = _falling((2.0 * frequency[above] / rate - IN_PHASE) / (1.0 - IN_PHASE))
     gain[above] = np.abs(gain[above]) * np.exp(1j * np.unwrap(np.angle(gain[above])) * kept)
-    spectrum = fft.rfft(changes, length, axis=0)
-    return fft.irfft(spectrum * gain.reshape(columns), length, axis=0)[:count]
+    with np.errstate(invalid="ignore"):  # what is no number stays none
+        return fft.irfft(fft.rfft(changes, length, axis=0) * gain.reshape(columns), length, axis=0)[:count]
 
 
 def _falling(part):

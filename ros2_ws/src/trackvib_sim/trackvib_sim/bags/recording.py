@@ -2,6 +2,7 @@
 
 from collections import Counter
 from pathlib import Path
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -19,9 +20,11 @@ class Inertial(NamedTuple):
 
     stamp: np.ndarray  # (k,) ns
     specific_force: np.ndarray  # (k, 3) m/s^2
-    angular_velocity: np.ndarray  # (k, 3) rad/s
+    angular_velocity: np.ndarray | None = None  # (k, 3) rad/s, where it was measured
     logged: np.ndarray | None = None  # (k,) when each message was recorded, ns
     covariance: np.ndarray | None = None  # (k,) first number of that of the force; -1: not measured
+    orientation: np.ndarray | None = None  # (k, 4) x y z w of the sensor in a world with z up, where it is asked for
+    orientation_covariance: np.ndarray | None = None  # (k,) first number, likewise
 
 
 class Mounts(NamedTuple):
@@ -114,6 +117,9 @@ class Recording(NamedTuple):
     counts: Counter  # messages a topic
     complete: bool  # False where the bag was cut short
     notes: tuple = ()  # sentences: what of the bag was left out, and what was done to it
+    origins: dict = MappingProxyType({})  # sensor -> `sources.Origin`, of those that are there
+    transforms: dict = MappingProxyType({})  # frame -> frame above it and quaternion in it, as /tf_static tells
+    own: dict = MappingProxyType({})  # sensor -> `Inertial` at its own rate, where it was resampled to the other one's
     clocks: dict | None = None  # end of topic -> `analysis.numbers.Clock`, once sensors are on one time base
 
     @property

@@ -14,15 +14,17 @@ from ..analysis.clocks.time_base import on_one_time_base
 from ..analysis.levels import WEIGHTINGS
 from ..analysis.measured import in_unit
 from ..analysis.numbers import AXES, SENSORS
+from ..analysis.placement import in_vehicle_axes
 from ..analysis.report.page import write_report
 from ..analysis.report.report_data import build_report_data
 from ..bags.files import bag_files
 from ..bags.reading import read_recording
+from ..bags.sources import is_csv
 from ..console import Description, Terminal
 from .result_folder import CommandError, all_or_nothing
 
 
-def run_analyze(bags, settle, interval, speed_band, out, time, unit):
+def run_analyze(bags, settle, interval, speed_band, out, time, unit, sources):
     """Analyse some bags; see `analyze_cli`.
 
     Raises
@@ -38,9 +40,9 @@ def run_analyze(bags, settle, interval, speed_band, out, time, unit):
         analyses, report_data_list = [], []
         with _progress(console) as progress:
             for bag in bags:
-                recording = read_recording(bag, _reporter(progress, f"reading {bag}"), time)
+                recording = read_recording(bag, _reporter(progress, f"reading {bag}"), time, sources)
                 try:
-                    recording = on_one_time_base(in_unit(recording, unit))
+                    recording = on_one_time_base(in_vehicle_axes(in_unit(recording, unit), sources))
                     reporter = _reporter(progress, f"measuring {bag}")
                     analyses.append(analyse(recording, settle, reporter, interval, speed_band))
                     report_data_list.append(build_report_data(recording, analyses[-1]))
@@ -64,7 +66,7 @@ def _require_different(bags):
     """Refuse a bag that is given twice: the tables tell bags apart by their paths."""
     seen = set()
     for bag in bags:
-        files = set(map(realpath, bag_files(bag)))
+        files = {realpath(bag)} if is_csv(bag) else set(map(realpath, bag_files(bag)))
         if files & seen:
             raise CommandError(f"bag {bag!r} is given twice")
         seen |= files

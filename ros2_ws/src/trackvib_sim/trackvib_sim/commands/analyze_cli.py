@@ -6,10 +6,12 @@ from ..analysis.numbers import INTERVAL, SPEED_BAND
 from ..analysis.settling import SHORTEST_SETTLING
 from .endings import fail
 from .option_types import FiniteRange, largest_chunk_option
+from .sensor_options import sensor_options
 
 
 @click.command()
 @largest_chunk_option
+@sensor_options
 @click.argument("bags", nargs=-1, required=True, metavar="BAG...", type=click.Path())
 @click.option(
     "--settle",
@@ -55,8 +57,8 @@ from .option_types import FiniteRange, largest_chunk_option
     default=None,
     help="Folder to make for the results.  [default: analyses/<time>]",
 )
-def analyze(bags, settle, interval, speed_band, out, time, unit):
-    """Turn bags into an HTML report and numbers.
+def analyze(bags, settle, interval, speed_band, out, time, unit, sources):
+    """Turn bags, or CSV files of samples, into an HTML report and numbers.
 
     RMS, ISO 2631-1 and absorbed power, by way and by speed, too; spectra, orders of the engine, mounts and currents:
     report.html for the eye (of several bags a comparison), JSON, CSV and
@@ -67,6 +69,6 @@ def analyze(bags, settle, interval, speed_band, out, time, unit):
     from .result_folder import CommandError
 
     try:
-        run_analyze(bags, settle, interval, speed_band, out, time, unit)
+        run_analyze(bags, settle, interval, speed_band, out, time, unit, sources)
     except (BagError, CommandError) as error:
         fail(error)
