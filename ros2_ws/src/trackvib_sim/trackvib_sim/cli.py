@@ -10,6 +10,7 @@ from mr_mount_controller.node_base.plain_text import plain_line
 
 from .commands.analyze_cli import analyze
 from .commands.bag_cli import bag
+from .commands.compare_cli import compare
 from .commands.endings import fail, say
 from .commands.lasting_output import OutputLost, lasting_output
 from .commands.mount_cli import mount
@@ -177,6 +178,7 @@ def vehicle(vehicle, out, listing, schema):
 
 main.add_command(analyze)
 main.add_command(bag)
+main.add_command(compare)
 main.add_command(mount)
 main.add_command(replay)
 main.add_command(study)

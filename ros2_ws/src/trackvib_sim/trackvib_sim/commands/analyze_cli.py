@@ -38,20 +38,6 @@ from .sensor_options import sensor_options
     help="Width of the bands of speed by which numbers are given, in m/s.",
 )
 @click.option(
-    "--time",
-    type=click.Choice(("header", "log")),
-    default="header",
-    show_default=True,
-    help="Which times are the time base: those in the messages' headers, or those at which messages were recorded.",
-)
-@click.option(
-    "--unit",
-    type=click.Choice(("m/s2", "g")),
-    default="m/s2",
-    show_default=True,
-    help="Unit of the recorded accelerations.",
-)
-@click.option(
     "--out",
     type=click.Path(file_okay=False),
     default=None,

@@ -1,4 +1,7 @@
-"""The options that tell which sensors a recording has and how they sit: shared by all verbs that read recordings."""
+"""The options that tell which sensors a recording has, how they sit, by which clock and in which unit they measured.
+
+Shared by all verbs that read recordings of others.
+"""
 
 from functools import wraps
 from math import isfinite
@@ -39,11 +42,25 @@ _OPTIONS = (
         help="What a CSV file calls its columns, with their units: time_s=t,x_g=ax,y_g=ay,z_g=az.  "
         "[default: time_s,x_m/s2,...]",
     ),
+    click.option(
+        "--time",
+        type=click.Choice(("header", "log")),
+        default="header",
+        show_default=True,
+        help="Which times are the time base: those in the messages' headers, or those at which messages were recorded.",
+    ),
+    click.option(
+        "--unit",
+        type=click.Choice(("m/s2", "g")),
+        default="m/s2",
+        show_default=True,
+        help="Unit of the recorded accelerations.",
+    ),
 )
 
 
 def sensor_options(command):
-    """Give a command the options above; it gets a `bags.sources.Sources` as `sources`."""
+    """Give a command the options above; it gets `time`, `unit`, and a `bags.sources.Sources` as `sources`."""
 
     @wraps(command)
     def with_sources(*, chassis, powertrain, further, rotate, gravity, csv_columns, **others):
