@@ -103,12 +103,18 @@ def _levels(analyses):
     for analysis in _sections(table, analyses, "sensors"):
         for sensor, axes in analysis.sensors.items():
             for axis, n in axes.items():
-                weighted = f"{WEIGHTINGS[AXES.index(axis)]} {n.rms_weighted:.3f}"
+                if isnan(n.rms):
+                    continue
+                weighted = f"{WEIGHTINGS[AXES.index(axis)]} {_number(n.rms_weighted)}"
                 rest = (n.crest_factor, n.mtvv, n.vdv, *((analysis.absorbed_power[sensor],) if axis == "z" else ()))
                 table.add_row(
-                    f"{sensor} {axis}", f"{n.rms:.3f}", f"{n.peak:.3f}", weighted, *map("{:.3f}".format, rest)
+                    f"{sensor} {axis}", f"{n.rms:.3f}", f"{n.peak:.3f}", weighted, *map(_number, rest)
                 )
     return table
+
+
+def _number(value):
+    return "–" if isnan(value) else f"{value:.3f}"
 
 
 def _speeds(analyses):

@@ -39,7 +39,7 @@ def common_bands(frequency, highest, weighted):
         gains = np.zeros((len(frequency), len(AXES)))
         for column, name in enumerate(WEIGHTINGS):
             gains[1:, column] = np.abs(transfer(name, frequency[1:])) ** 2
-        found.append(Band("RMS weighted, ISO 2631-1", np.nan, gains * _between(frequency, 0.0, highest)))
+        found.append(Band("RMS, weighted", np.nan, gains * _between(frequency, 0.0, highest)))
     for number in range(FIRST, LAST + 1):
         centre = 10.0 ** (number / 10.0)
         low, high = centre * 10.0**-0.05, centre * 10.0**0.05
@@ -51,7 +51,7 @@ def common_bands(frequency, highest, weighted):
 def line_bands(frequency, lines, highest):
     """Return `Band`s of `numbers.Line`s by name."""
     return {
-        line.name: Band(f"RMS, {line.name}", line.frequency, _between(frequency, line.low, line.high))
+        line.name: Band(line.name, line.frequency, _between(frequency, line.low, line.high))
         for line in lines
         if line.high <= highest
     }

@@ -16,6 +16,7 @@ from .windows import frequencies, windows_of
 ALIGNMENTS = AUTO, BY_SPEED, BY_DISTANCE, NOT = ("auto", "speed", "distance", "none")
 TRUSTED = 0.45  # of the lower rate, up to which both drives are compared
 LEAST_WINDOWS = 3  # of each drive in a band of speed, for it to be compared
+LEAST_LEVEL = 1e-9  # m/s^2, below which there is nothing but rounding
 THROUGH = "chassis to powertrain"
 
 
@@ -126,6 +127,7 @@ def _derived(bands):
         real, imaginary = (
             averages[:, powers + part * crosses :][:, :crosses].reshape(-1, bands, len(AXES)) for part in (0, 1)
         )
+        power = np.where(power >= LEAST_LEVEL**2, power, np.nan)
         with np.errstate(divide="ignore", invalid="ignore"):
             level = 0.5 * np.log(power)
             through = 0.5 * np.log(real**2 + imaginary**2) - np.log(power[:, :, 0])

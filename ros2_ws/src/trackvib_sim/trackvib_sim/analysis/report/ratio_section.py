@@ -29,23 +29,23 @@ def ratio_section(comparison):
         confidence=comparison.confidence, windows=comparison.windows, aligned=_ALIGNED[comparison.aligned_by]
     )
     figures = [_thirds(comparison, axis) for axis in AXES]
-    return Section("Simulated over measured", words, figures, [ratio_table(comparison, thirds=False)], 3)
+    return Section("Simulated over measured", words, figures, [ratio_table(comparison)], 3)
 
 
-def ratio_table(comparison, thirds=True):
-    """Return the `tables.Table` of the ratios of a `Comparison`, with or without those by third octave."""
+def ratio_table(comparison):
+    """Return the `tables.Table` of the ratios of levels of a `Comparison`, without those by third octave."""
     rows = [
         (
             f"{each.part} {each.axis}",
-            f"{each.quantity}, {each.unit}".removesuffix(", -"),
+            each.quantity,
             "" if isnan(each.frequency) else f"{each.frequency:.4g}",
             *(number(value, 3) for value in (each.measured, each.simulated, each.ratio)),
             "–" if isnan(each.low) else f"{number(each.low, 3)} to {number(each.high, 3)}",
         )
         for each in comparison.ratios
-        if thirds or "third octave" not in each.quantity
+        if "third octave" not in each.quantity
     ]
-    head = ("", "", "Hz", "measured", "simulated", "ratio", f"{comparison.confidence:.0%} interval")
+    head = ("", "m/s²", "Hz", "measured", "simulated", "ratio", f"{comparison.confidence:.0%} interval")
     return Table(head, rows, 2)
 
 
