@@ -4,12 +4,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 from mr_mount_controller.node_base.plain_text import readable
-from zstandard import ZstdError
 
 from ..yaml_text import YamlTextError, load, read_text
 from .errors import BagError
 from .mcap_walk import has_records
-from .opening import how_to_convert, opened
+from .opening import how_to_convert
+from .unfolding import ZSTD_MAGIC
 
 _FOLDED = (".zstd", ".zst")  # behind the name of a file that is compressed as a whole
 _SUFFIXES = (".mcap", *(f".mcap{folded}" for folded in _FOLDED))
@@ -85,11 +85,8 @@ def _files(path):
 
 
 def _is_mcap(file):
-    try:
-        with opened(file) as stream:
-            return has_records(stream)
-    except ZstdError:
-        return False
+    with file.open("rb") as stream:
+        return stream.read(len(ZSTD_MAGIC)) == ZSTD_MAGIC or has_records(stream)
 
 
 def _listed(path):

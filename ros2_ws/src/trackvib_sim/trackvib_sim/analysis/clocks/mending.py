@@ -199,6 +199,8 @@ def _tells_nothing(stamp, logged):
 
 def in_steps(stamp):
     """Return in words which steps stamps make."""
+    if len(stamp) < 2:
+        return f"there are {len(stamp)}"
     step = np.diff(stamp) / NANO * 1e3
     steps, counts = np.unique(np.round(step, 3), return_counts=True)
     most = np.sort(np.argsort(counts)[::-1][:3])
