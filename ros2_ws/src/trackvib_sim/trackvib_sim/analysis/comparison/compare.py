@@ -9,6 +9,7 @@ from ..lines import known_lines, read_causes
 from ..motion import mean_motion
 from ..numbers import AXES, SENSORS, SPEED_BAND
 from ..segments import find_segments
+from ..vibration import LOWEST
 from .bands import Band, common_bands, line_bands
 from .intervals import CONFIDENCE, jackknifed, ratio_interval
 from .windows import frequencies, windows_of
@@ -85,7 +86,7 @@ def compare(recordings, analyses, align=AUTO, interval=50.0, speed_band=SPEED_BA
     ratios = tuple(_records(bands[0], results))
     counts = tuple(int((stratum >= 0).sum()) for stratum in strata)
     paths = (str(recording.path) for recording in recordings)
-    return Comparison(*paths, aligned_by, CONFIDENCE, counts, (bands[0][0].frequency, highest), ratios, tuple(notes))
+    return Comparison(*paths, aligned_by, CONFIDENCE, counts, (LOWEST, highest), ratios, tuple(notes))
 
 
 def _lines(recordings, analyses):
