@@ -80,7 +80,8 @@ def draw(drives, same):
     for sensor, colour in zip(LINES, ("#4878a8", "#c8453c"), strict=True):
         for axis, style in zip(AXES, (":", "--", "-"), strict=True):
             levels = [each.rms[sensor][AXES.index(axis)] for each in drives]
-            left.plot([each.speed for each in drives], levels, style, color=colour, marker=".", label=f"{sensor} {axis}")
+            look = {"color": colour, "marker": ".", "label": f"{sensor} {axis}"}
+            left.plot([each.speed for each in drives], levels, style, **look)
         right.semilogy(same.frequency, same.density[sensor], color=colour, linewidth=0.9, label=sensor)
         right.axvline(LINES[sensor], color=colour, linestyle=":", linewidth=1.2, label=f"line of the test's {sensor}")
     left.set(xlabel="speed, m/s", ylabel="RMS, m/s²", ylim=(0.0, None))

@@ -115,7 +115,9 @@ def stream_with(message, quaternion):
 
 
 @pytest.mark.property
-@pytest.mark.parametrize(("rate", "words"), [(40, "no weighted values"), (100, "hold what is below 50 Hz"), (200, None)])
+@pytest.mark.parametrize(
+    ("rate", "words"), [(40, "no weighted values"), (100, "hold what is below 50 Hz"), (200, None)]
+)
 def test_what_a_rate_cannot_hold_is_said(tmp_path, rate, words):
     """Below 50 Hz there are no weighted values, below 200 Hz they lack the upper end of the band."""
     time = times(rate, 8)

@@ -37,7 +37,8 @@ def imu(stamp, force, frame="sensor", orientation=None):
     covariance[0] = -1.0 if orientation is None else 0.0
     quaternion = _of("geometry_msgs/msg/Quaternion", *map(float, orientation or (0.0, 0.0, 0.0, 1.0)))
     rate = _vector((0.0, 0.0, 0.0))
-    return _of("sensor_msgs/msg/Imu", header(stamp, frame), quaternion, covariance, rate, NOTHING, _vector(force), NOTHING)
+    fields = header(stamp, frame), quaternion, covariance, rate, NOTHING, _vector(force), NOTHING
+    return _of("sensor_msgs/msg/Imu", *fields)
 
 
 def accel(stamp, force, frame="sensor"):

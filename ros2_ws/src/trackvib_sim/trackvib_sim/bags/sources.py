@@ -24,7 +24,7 @@ class Sources:
     """
 
     topics: Mapping = field(default_factory=dict)  # sensor -> topic, or CSV file
-    rotations: Mapping = field(default_factory=dict)  # sensor, or "" for all others -> roll, pitch, yaw in the vehicle, deg
+    rotations: Mapping = field(default_factory=dict)  # sensor, or "" for all others -> its roll, pitch, yaw, deg
     gravity: str = BY_MEAN  # how it is removed, one of `GRAVITIES`
     csv_columns: Mapping = field(default_factory=dict)  # column as `csv_recording` calls it -> as the file does
 

@@ -40,7 +40,8 @@ def run_analyze(bags, settle, interval, speed_band, out, time, unit, sources):
         analyses, report_data_list = [], []
         with progress_on(console) as progress:
             for bag in bags:
-                recording, analysis, report_data = measure(bag, progress, settle, interval, speed_band, time, unit, sources)
+                how = settle, interval, speed_band, time, unit, sources
+                recording, analysis, report_data = measure(bag, progress, *how)
                 analyses.append(analysis)
                 report_data_list.append(report_data)
                 del recording  # and with it large temporary files, before the next one makes its own

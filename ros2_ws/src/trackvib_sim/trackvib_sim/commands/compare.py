@@ -55,7 +55,8 @@ def run_compare(measured, simulated, align, speed_band, interval, settle, out, t
 def _print(comparison, console):
     found = ratio_table(comparison)
     how = {"none": "not aligned"}.get(comparison.aligned_by, f"aligned by {comparison.aligned_by}")
-    table = new_table(f"simulated over measured, {how}, levels up to {comparison.band[1]:.4g} Hz", found.head[: found.words])
+    title = f"simulated over measured, {how}, levels up to {comparison.band[1]:.4g} Hz"
+    table = new_table(title, found.head[: found.words])
     for name in found.head[found.words :]:
         table.add_column(name, justify="right", no_wrap=True)
     for row in found.rows:

@@ -98,7 +98,7 @@ def _lines(recordings, analyses):
         motion = mean_motion(recordings[0], analysis.begin + round(1e9 * analysis.settle))
         found[0] = known_lines(analysis.spectra, motion, pitch, orders)
         if found[0]:
-            notes.append("lines of the measured drive are those of the simulated vehicle's tracks and engine at its speed")
+            notes.append("lines of the measured drive are those of the simulated vehicle, at the speed measured")
     return found, notes
 
 
@@ -148,7 +148,8 @@ def _records(bands: list[Band], results):
             for row, band in enumerate(bands):
                 cell = row, place, column
                 through = part == THROUGH
-                if np.isfinite([each[cell] for each in values]).any() and not (through and "third" not in band.quantity):
+                told = np.isfinite([each[cell] for each in values]).any()
+                if told and ("third" in band.quantity or not through):
                     yield Ratio(
                         part,
                         axis,

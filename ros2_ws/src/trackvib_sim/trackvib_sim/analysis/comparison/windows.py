@@ -24,7 +24,7 @@ class Windows(NamedTuple):
 
 
 def frequencies(rate):
-    """Return the frequencies (f,) [Hz] of a window at a rate [Hz]; they are the same whatever the rate, but for more."""
+    """Return the frequencies (f,) [Hz] of a window at a rate [Hz]; of a higher rate there are more of the same."""
     return np.arange(round(LENGTH * rate) // 2 + 1) / LENGTH
 
 

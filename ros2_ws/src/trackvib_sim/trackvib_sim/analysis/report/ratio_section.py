@@ -12,9 +12,9 @@ from .tables import Table, number
 
 _COLOURS = {**SENSOR_COLOURS, THROUGH: "#b0508f"}
 _METHOD = (
-    "Ratios are simulated over measured, with intervals of {confidence:.0%} confidence: by the jackknife over groups of "
-    "windows (2 s, Hann, half overlapping; {windows[0]} measured, {windows[1]} simulated) and Student's t on logarithms, "
-    "degrees of freedom by Welch and Satterthwaite. {aligned}"
+    "Ratios are simulated over measured, with intervals of {confidence:.0%} confidence: by the jackknife over groups "
+    "of windows (2 s, Hann, half overlapping; {windows[0]} measured, {windows[1]} simulated) and Student's t on "
+    "logarithms, degrees of freedom by Welch and Satterthwaite. {aligned}"
 )
 _ALIGNED = {
     "speed": "Windows are those of bands of speed that both drives have, weighted as the measured drive has them.",
@@ -69,7 +69,7 @@ def _thirds(comparison, axis):
                     mode="lines+markers",
                     marker_size=4,
                     line={"color": colour, "width": 1.1},
-                    name=f"{part}, transmissibility" if part == THROUGH else part,
+                    name="transmissibility" if part == THROUGH else part,
                 )
             )
     styled(figure, 380, f"Ratio by third octave, {AXIS_NAMES[axis]}")
