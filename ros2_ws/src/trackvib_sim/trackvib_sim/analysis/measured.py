@@ -1,4 +1,4 @@
-"""What of a recording was measured, and in what unit: samples that are none, sensors that do not measure, g for m/s²."""
+"""What of a recording was measured, and in what unit: samples that are none, sensors that measure nothing, g."""
 
 import numpy as np
 

@@ -25,7 +25,8 @@ def find_notes(recording, segments):
             f"gaps: {found.gap_count}, in which {missing} missing": found.gap_count,
             f"samples within half a period of the one before: {found.repeated}": found.repeated,
             f"samples older than the one before: {found.backward}": found.backward,
-            f"samples that are no numbers: {odd[end]}": odd[end] % found.samples,  # of a sensor that measured nothing all
+            f"samples that are no numbers: {odd[end]}": odd[end]
+            % found.samples,  # of a sensor that measured nothing all
         }
         notes += [f"{end}: {text}" for text, count in counts.items() if count]
     return notes + [f"no {end} in the bag: {what}" for end, what in _WITHOUT.items() if end not in recording.streams]
@@ -51,7 +52,10 @@ def rate_notes(rates):
 def _not_finite(columns):
     """Count the samples of some columns, the stamps first, with a value that is not finite."""
     count = 0
+    others = ("logged", "covariance")
+    named = zip(columns._fields[1:], columns[1:], strict=True)
+    measured = [column for name, column in named if name not in others and column is not None]
     for block in blocks(len(columns[0]), BLOCK):
-        parts = (column[block].reshape(len(column[block]), -1) for column in columns[1:3] if column is not None)
+        parts = (column[block].reshape(len(column[block]), -1) for column in measured)
         count += int(np.count_nonzero(~np.logical_and.reduce([np.isfinite(part).all(axis=1) for part in parts])))
     return count

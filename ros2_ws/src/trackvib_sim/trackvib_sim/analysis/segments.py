@@ -84,7 +84,10 @@ def _why_none(stamps, timings, begin, last, settle):
     parts = f"{settle:g} s of settling and {SHORTEST_MEASURING:g} s to measure without a gap in either sensor"
     first = int(max(stamp[0] for stamp in stamps))
     if first > last:
-        spans = (f"{end} from {stamp[0] / NANO:.3f} to {stamp[-1] / NANO:.3f} s" for end, stamp in zip(_IMUS, stamps, strict=True))
+        spans = (
+            f"{end} from {stamp[0] / NANO:.3f} to {stamp[-1] / NANO:.3f} s"
+            for end, stamp in zip(_IMUS, stamps, strict=True)
+        )
         return f"the sensors were recorded at different times by their stamps: {', '.join(spans)}"
     run = f"the run is {(last - begin) / NANO:g} s long"
     if last - begin < needed * NANO:

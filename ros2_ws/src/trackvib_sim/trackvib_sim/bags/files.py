@@ -35,7 +35,11 @@ class BagFiles(NamedTuple):
         return (
             *([f"not among the files that {METADATA} lists, left out: {beside}"] if beside else []),
             *([f"listed by {METADATA}, not there: {absent}"] if absent else []),
-            *([f"empty or no MCAP, left out: {unreadable} (`trackvib bag repair` sets it aside)"] if unreadable else []),
+            *(
+                [f"empty or no MCAP, left out: {unreadable} (`trackvib bag repair` sets it aside)"]
+                if unreadable
+                else []
+            ),
         )
 
 

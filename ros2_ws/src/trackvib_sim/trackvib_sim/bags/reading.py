@@ -125,7 +125,8 @@ def read_recording(
     except _READ_ERRORS as error:
         raise BagError(f"bag {str(path)!r} cannot be read: {str(error) or type(error).__name__}") from None
     on_progress(total, total)
-    return recording._replace(notes=(*found.notes, *recording.notes))
+    by_log = ("stamps are the times at which messages were recorded",) if time == LOG_TIME else ()
+    return recording._replace(notes=(*found.notes, *recording.notes, *by_log))
 
 
 class _Reading:

@@ -49,8 +49,8 @@ class Repair(NamedTuple):
 def repair(path, told=lambda done, size: None):
     """Complete a bag folder without losing a whole message; returns a `Repair`.
 
-    A split that is empty or no MCAP is set aside where others are left. What is damaged is written anew beside, and kept under its name with `.damaged` behind; what is sound is not
-    touched. `told(done, size)` is called now and then with the bytes that are done of a file.
+    A split that is empty or no MCAP is set aside where others are left. What is damaged is written anew beside, and
+    kept under its name with `.damaged` behind; what is sound is not touched. `told(done, size)` is called now and then with the bytes that are done of a file.
 
     Raises
     ------

@@ -106,16 +106,10 @@ def _levels(analyses):
             for axis, n in axes.items():
                 if isnan(n.rms):
                     continue
-                weighted = f"{WEIGHTINGS[AXES.index(axis)]} {_number(n.rms_weighted)}"
+                weighted = f"{WEIGHTINGS[AXES.index(axis)]} {_told(n.rms_weighted)}"
                 rest = (n.crest_factor, n.mtvv, n.vdv, *((analysis.absorbed_power[sensor],) if axis == "z" else ()))
-                table.add_row(
-                    f"{sensor} {axis}", f"{n.rms:.3f}", f"{n.peak:.3f}", weighted, *map(_number, rest)
-                )
+                table.add_row(f"{sensor} {axis}", _told(n.rms), _told(n.peak), weighted, *map(_told, rest))
     return table
-
-
-def _number(value):
-    return "–" if isnan(value) else f"{value:.3f}"
 
 
 def _speeds(analyses):
@@ -128,7 +122,7 @@ def _speeds(analyses):
             levels = (number for sensor in SENSORS for number in (band.rms[sensor]["z"], band.absorbed_power[sensor]))
             engine = "" if isnan(band.engine_speed) else f"{band.engine_speed:.0f}"
             words = f"{band.low:g} to {band.high:g}", f"{band.measured:.1f}", engine
-            table.add_row(*words, *(f"{level:.3f}" for level in levels))
+            table.add_row(*words, *map(_told, levels))
     return table
 
 
@@ -140,7 +134,7 @@ def _lines(analyses):
         for line in analysis.lines:
             names = (line.name, f"{line.frequency:.1f}")
             for sensor, axes in line.rms.items():
-                table.add_row(*names, sensor, *(f"{level:.3f}" for level in axes.values()))
+                table.add_row(*names, sensor, *map(_told, axes.values()))
                 names = ("", "")
     return table
 
@@ -157,6 +151,10 @@ def _mounts(analyses):
                        current.mean, current.least, current.greatest)  # fmt: skip
             table.add_row(name, *(f"{each:.2f}" for each in numbers))
     return table
+
+
+def _told(level):
+    return "-" if isnan(level) else f"{level:.3f}"
 
 
 def _sections(table, analyses, name):

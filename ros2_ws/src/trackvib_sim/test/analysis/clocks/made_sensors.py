@@ -1,4 +1,4 @@
-"""Sensors with clocks of their own upon one known motion: what they measure is told at the true times of their samples."""
+"""Sensors with clocks of their own upon one known motion, which they measure at the true times of their samples."""
 
 from collections import Counter
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Clocks of real sensors: coarse, late, repeated, drifting, set; numbers as if they had been perfect, and what was done."""
+"""Clocks of real sensors: coarse, late, drifting, set; numbers as if they were perfect, and what was done is told."""
 
 import numpy as np
 import pytest
@@ -188,7 +188,7 @@ def test_a_clock_that_is_set_while_recording(step, logged):
     told[7500:] += step
     found = analyse(both(time, told, logged=logged))
     require_right(found, 1000.0)
-    assert found.measured == pytest.approx(18.0 if logged or step == -0.1 else 16.0, abs=0.01)
+    assert found.measured == pytest.approx(18.0 if logged else 16.0, abs=0.01)
     if logged:
         assert found.duration == pytest.approx(20.0)
         way = "ahead" if step > 0.0 else "back"
@@ -214,7 +214,10 @@ def test_parts_in_any_order_and_copies():
     """A file whose second half comes first, and one that has a part twice."""
     time = times(1000.0, 10.0)
     whole = np.arange(len(time))
-    for kept, note in ((np.roll(whole, 5000), ""), (np.append(whole, whole[2000:6000]), "4000 messages are in the bag")):
+    for kept, note in (
+        (np.roll(whole, 5000), ""),
+        (np.append(whole, whole[2000:6000]), "4000 messages are in the bag"),
+    ):
         found = analyse(both(time, logged=time - 0.01, kept=kept) if note else both(time, kept=kept))
         require_right(found, 1000.0)
         assert found.measured == 8.0 and (not note or says(found, note))
@@ -236,5 +239,5 @@ def test_stamps_that_are_no_time_base_are_refused():
     zero = np.zeros(len(time), np.int64)
     with pytest.raises(NoClock, match="all 8000 header stamps of powertrain/imu are zero; `--time log` takes"):
         on_one_time_base(recorded(sensor(time), sensor(time, 0.5, stamp=zero)))
-    with pytest.raises(NoClock, match=r"stamps of chassis/imu do not go on evenly: 7999 steps, 7992 of 0 ms, 7 of 1000"):
+    with pytest.raises(NoClock, match=r"stamps of chassis/imu do not go on: 7999 steps, 7992 of 0 ms, 7 of 1000"):
         on_one_time_base(both(time, np.ceil(time), logged=False))

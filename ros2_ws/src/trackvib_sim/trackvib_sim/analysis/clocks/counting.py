@@ -98,7 +98,7 @@ def _scatter(ahead):
 
 
 def _steps(ahead, around, sharp):
-    """Return before which samples, and by how many periods, the stamps run ahead of the count for good, or fall back."""
+    """Return before which samples, and by how many periods, the stamps run ahead of the count, or fall back, for good."""
     if len(ahead) <= 4 * around:
         return np.empty(0, np.int64), np.empty(0, np.int64)
     if sharp:

@@ -95,7 +95,7 @@ def mend(stamp, logged, force, name):
             disordered[part] = found.order != np.arange(end - begin)
             order[part], told[part] = order[part][found.order], told[part][found.order]
         parts.append(found)
-        small += [(step / NANO, found.by_log) for step in found.settings]
+        small += [(step / NANO, logged is not None) for step in found.settings]
     if not parts:
         raise NoClock(f"{name} has no {LEAST_SAMPLES} samples that follow each other: {in_steps(stamp)}")
     rest = np.concatenate([part.rest for part in parts])
@@ -137,7 +137,8 @@ def _mend_part(stamp, logged, name):
     found = count_samples(time)
     by_log = None if logged is None else count_samples((logged - logged[0]).astype(float))
     witnessed = by_log is not None and (
-        found is None or (by_log.scatter <= max(found.scatter, 0.1) and by_log.lost < found.lost)
+        found is None
+        or (by_log.scatter <= max(found.scatter, 0.1) and by_log.lost < found.lost)
         or by_log.scatter < 0.5 * found.scatter
     )
     if witnessed:
@@ -145,7 +146,7 @@ def _mend_part(stamp, logged, name):
     if found is None:
         raise NoClock(f"stamps of {name} do not go on evenly: {in_steps(stamp)}")
     index, grain = found.index, float(np.gcd.reduce(np.diff(stamp)))
-    time, settings = _without_small_settings(time, index, found.period, grain)
+    time, index, settings = _without_small_settings(time, index, found.period, grain, logged is not None)
     line = line_through(time, index, found.period, NANO, grain)
     rest = time - line.at(index)
     order = _by_stamp(time, rest, line.period)
@@ -155,19 +156,24 @@ def _mend_part(stamp, logged, name):
     return _Part(mended, ~found.unsure, order, line.period, rest, found.lost, witnessed, settings)
 
 
-def _without_small_settings(time, index, period, grain):
-    """Return times as if nobody had set the clock, and by how much it was: steps that the count does not explain."""
-    # as they would be if no sample were lost
-    found = count_samples(time - period * (index - np.arange(len(time))))
+def _without_small_settings(time, index, period, grain, witnessed):
+    """Return times and numbers of samples as if nobody had set the clock, and by how much it was.
+
+    It was where the times step otherwise than the count of the samples. Where the recorder's clock is no witness nobody
+    knows how much time passed: two periods, which end a stretch.
+    """
+    found = count_samples(time - period * (index - np.arange(len(time))))  # as if no sample were lost
     places = () if found is None else found.places[np.abs(found.steps) * period > 1.5 * grain]
     settings = []
     for place in places:
         rest = (time - period * index)[max(place - WITHIN, 0) : place + WITHIN]
         middle = min(place, WITHIN)
         step = float(np.median(rest[middle:]) - np.median(rest[:middle]))
-        time = np.append(time[:place], time[place:] - step)
+        behind = np.arange(len(time)) >= place
+        index = index + behind * (0 if witnessed else 1)
+        time = time - behind * (step - (0.0 if witnessed else period))
         settings.append(step)
-    return time, settings
+    return time, index, settings
 
 
 def _by_stamp(time, rest, period):
@@ -205,6 +211,6 @@ def in_steps(stamp):
     steps, counts = np.unique(np.round(step, 3), return_counts=True)
     most = np.sort(np.argsort(counts)[::-1][:3])
     if counts[most].sum() < 0.5 * len(step):
-        return f"{len(step)} steps from {step.min():.4g} to {step.max():.4g} ms, half of them below {np.median(step):.4g} ms"
+        return f"{len(step)} steps from {step.min():.4g} to {step.max():.4g} ms, median {np.median(step):.4g} ms"
     words = [f"{counts[k]} of {steps[k]:g} ms" for k in most]
     return f"{len(step)} steps, {', '.join(words)}{', others' if len(steps) > 3 else ''}"

@@ -51,7 +51,9 @@ def find_settings(stamp, logged, period):
     # how much time passed at a jump back nobody else knows: two periods, which end a stretch
     step = jump - np.where(witnessed, np.maximum(passed, round(period)), round(2.0 * period))
     real = witnessed | (jump < 0)
-    return [Setting(*each) for each in zip(*(column[real].tolist() for column in (places, step, witnessed)), strict=True)]
+    return [
+        Setting(*each) for each in zip(*(column[real].tolist() for column in (places, step, witnessed)), strict=True)
+    ]
 
 
 def _jumps(stamp, logged, period):

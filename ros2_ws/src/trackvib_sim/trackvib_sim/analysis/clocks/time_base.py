@@ -1,4 +1,4 @@
-"""Both sensors on one time base: mended stamps, samples that are none taken out, the powertrain at the chassis's instants."""
+"""Both sensors on one time base: stamps mended, samples that are none left out, both at the same instants."""
 
 import numpy as np
 from mr_mount_controller.node_base import topics
@@ -73,7 +73,9 @@ def _mended(inertial, end):
         force = np.broadcast_to(np.nan, found.specific_force.shape)
         return found._replace(specific_force=force), clock, [*notes, f"{end}: acceleration was not measured, {why}"]
     if not sound.all():
-        notes.append(f"{end}: samples that are no numbers: {len(sound) - sound.sum()}; each ends a stretch as a gap does")
+        notes.append(
+            f"{end}: samples that are no numbers: {len(sound) - sound.sum()}; each ends a stretch as a gap does"
+        )
         found = _part_of(found, np.flatnonzero(sound))
     return found, clock, notes
 
@@ -145,7 +147,7 @@ def _at_the_same_instants(chassis, powertrain):
     period, other = period_of(chassis.stamp), period_of(powertrain.stamp)
     if abs(other / period - 1.0) > ALIKE:
         return powertrain, []
-    stamps, values, slips = [], [], []
+    stamps, slips = [], []
     edges = _edges(powertrain.stamp)
     for begin, end in zip(edges[:-1], edges[1:], strict=True):
         own = powertrain.stamp[begin:end]
@@ -159,7 +161,12 @@ def _at_the_same_instants(chassis, powertrain):
         slips.append(np.ptp(place - sound))
         stamps.append((at, begin, end, place))
     if not slips or max(slips) <= SLIP:
-        return powertrain, []
+        places = np.concatenate([place for *_, place in stamps]) if stamps else np.zeros(1)
+        apart = float(np.median(np.abs(places - np.round(places))))
+        note = (
+            f"powertrain/imu is sampled {1e-6 * apart * other:.3g} ms from chassis/imu: paired with the nearest sample"
+        )
+        return powertrain, [note] if apart > SLIP else []
     force = [resampled(powertrain.specific_force[b:e], place, other / period) for _, b, e, place in stamps]
     stamp = np.concatenate([at for at, *_ in stamps])
     drift = 1e6 * (period / other - 1.0)
