@@ -14,7 +14,7 @@ from trackvib_sim.analysis.segments import TooShort, settling_of
 from trackvib_sim.analysis.summary import summarise
 from trackvib_sim.analysis.vibration import rms
 
-from .made_recordings import MS, made_recording
+from .made_recordings import made_recording
 
 SENSORS = ("chassis", "powertrain")
 
