@@ -137,14 +137,15 @@ class Recording(NamedTuple):
         return {end: columns for end, columns in parts.items() if columns is not None}
 
     def require(self, *parts):
-        """Make sure that this is one run, with some optional parts: "mounts", "road", "vehicle".
+        """Make sure that this is one run with both sensors and some optional parts: "mounts", "road", "vehicle".
 
         Raises
         ------
         BagError
             A part is missing, or stamps go back.
         """
-        missing = [_TOPIC_OF[part] for part in parts if not getattr(self, part)]
+        absent = [sensor for sensor in ("chassis", "powertrain") if self.origins and sensor not in self.origins]
+        missing = [*map(topics.imu_topic, absent), *(_TOPIC_OF[part] for part in parts if not getattr(self, part))]
         if missing:
             raise BagError(f"bag {str(self.path)!r} holds no messages on {', '.join(missing)}")
         for end, stream in self.streams.items():
