@@ -15,6 +15,7 @@ from .commands.lasting_output import OutputLost, lasting_output
 _VERBS = {
     "analyze": "analyze_cli",
     "bag": "bag_cli",
+    "compare": "compare_cli",
     "modes": "vehicle_cli",
     "mount": "mount_cli",
     "replay": "replay_cli",

@@ -1,6 +1,7 @@
 """The one reader of numbers in CSV from outside: columns named with their units, checked line by line.
 
-Lines that begin with # are comments; a semicolon or a tab may stand for the comma.
+Lines that begin with # are comments; a semicolon or a tab may stand for the comma, and numbers then have a decimal
+comma or point.
 """
 
 import csv
@@ -22,7 +23,7 @@ class CsvError(ValueError):
     """A file that cannot be used; the message names it, the line or column and what is accepted."""
 
 
-def read_columns(path, units, layouts, optional, most):
+def read_columns(path, units, layouts, optional, most, called=None):
     """Return the columns (n,) of a CSV file by quantity, in the units whose factor is 1.
 
     Parameters
@@ -36,6 +37,8 @@ def read_columns(path, units, layouts, optional, most):
         Quantities that may be there as well.
     most : int
         Lines of numbers that are accepted.
+    called : mapping, optional
+        Column as it would be called -> what the file calls it.
 
     Raises
     ------
@@ -47,28 +50,33 @@ def read_columns(path, units, layouts, optional, most):
     name = readable(str(path))
     try:
         with open_ordinary(path, _LARGEST) as file, TextIOWrapper(file, encoding="utf-8-sig", newline="") as text:
-            return _read(text, name, units, layouts, optional, most)
+            return _read(text, name, units, layouts, optional, most, called or {})
     except UnicodeDecodeError as error:
         raise CsvError(f"{name} is no text in UTF-8: it has a byte 0x{error.object[error.start]:02x}") from None
     except csv.Error as error:  # NUL, for older versions of Python
         raise CsvError(f"{name} is no CSV file: {error}") from None
 
 
-def _read(file, name, units, layouts, optional, most):
+def _read(file, name, units, layouts, optional, most, called):
     lines = _lines(file, name)
     number, head = next(lines, (0, ""))
     if not head:
         example = ",".join(f"{quantity}_{next(iter(units[quantity]))}" for quantity in layouts[0])
         raise CsvError(f"{name} is empty, its first line must name the columns, like {example}")
-    delimiter = next((sign for sign in (",", ";", "\t") if sign in head), ",")
+    delimiter = next((sign for sign in (";", "\t", ",") if sign in head), ",")
     columns = [column.strip().lower() for column in next(csv.reader([head], delimiter=delimiter))]
+    own = {theirs.strip().lower(): ours.lower() for ours, theirs in called.items()}
+    for theirs in own.keys() - set(columns):
+        told = ", ".join(readable(shortened(column)) for column in islice(columns, 10))
+        raise CsvError(f"{name} has no column {readable(shortened(theirs))}, it has {told}")
+    columns = [own.get(column, column) for column in columns]
     found = _columns(columns, name, units, layouts, optional)
     places = [place for place, _ in found.values()]
     numbers = array("d")
     for number, line in lines:
         cells = next(csv.reader([line], delimiter=delimiter))
         try:
-            numbers.extend([float(cells[place]) for place in places])
+            numbers.extend([_number(cells[place], delimiter) for place in places])
         except (ValueError, IndexError):
             shown = readable(shortened(line))
             raise CsvError(f"{name}, line {number}: {shown!r}, accepted are {len(columns)} numbers") from None
@@ -77,6 +85,11 @@ def _read(file, name, units, layouts, optional, most):
     rows = np.frombuffer(numbers).reshape(-1, len(places)).T
     with np.errstate(over="ignore"):  # what is infinite is refused by whoever knows the quantity
         return {quantity: row * factor for row, (quantity, (_, factor)) in zip(rows, found.items(), strict=True)}
+
+
+def _number(cell, delimiter):
+    """Return a cell's number; a decimal comma is one where columns are not told apart by commas."""
+    return float(cell if delimiter == "," else cell.replace(",", "."))
 
 
 def _lines(file, name):

@@ -2,9 +2,8 @@
 
 import numpy as np
 import pytest
-from scipy import signal
 from trackvib_sim.analysis import absorbed_power as module
-from trackvib_sim.analysis.absorbed_power import FOOT, absorbed_by_frequency, absorbed_power, sections
+from trackvib_sim.analysis.absorbed_power import FOOT, absorbed_by_frequency, absorbed_power, transfer
 
 FREQUENCY = np.geomspace(0.5, 40.0, 200)  # Hz
 
@@ -37,29 +36,27 @@ def test_transfer_function_is_that_of_a_passive_body():
 
 
 @pytest.mark.analytic
-@pytest.mark.parametrize("rate", [500.0, 1000.0, 4000.0])
-def test_filter_becomes_the_transfer_function(rate):
-    """Its gain squared, up to where the bilinear transform bends frequencies: by (f / rate)² of a slope of two."""
-    frequency = FREQUENCY[0.08 * rate > FREQUENCY]
-    gain = np.abs(signal.sosfreqz(sections(rate), frequency, fs=rate)[1])
-    bend = 8.0 * (np.pi * frequency / rate) ** 2 / 3.0
-    assert np.all(np.abs(gain**2 / absorbed_by_frequency(frequency) - 1.0) < bend + 1e-6)
+def test_response_has_the_published_gain():
+    """The factored response, whose gain squared is the power of a sine, at every frequency."""
+    frequency = np.geomspace(0.05, 500.0, 400)
+    assert np.abs(transfer(frequency)) ** 2 == pytest.approx(absorbed_by_frequency(frequency), rel=1e-9)
 
 
 @pytest.mark.analytic
-def test_sine_upon_gravity_has_its_power():
+@pytest.mark.parametrize("rate", [50.0, 200.0, 1000.0])
+def test_sine_upon_gravity_has_its_power(rate):
     """1 m/s² RMS at 4.5 Hz and 2 m/s² at 12 Hz, alone and together; gravity leaves nothing."""
-    time = np.arange(30_000) / 1000.0
+    time = np.arange(round(30.0 * rate)) / rate
     sines = np.sqrt(2.0) * np.sin(2.0 * np.pi * np.outer((4.5, 12.0), time)) * ((1.0,), (2.0,))
     wanted = absorbed_by_frequency((4.5, 12.0)) * (1.0, 4.0)
     for sine, power in zip((*sines, sines.sum(axis=0)), (*wanted, wanted.sum()), strict=True):
-        assert absorbed_power(9.81 + sine, 1000.0)[10_000:].mean() == pytest.approx(power, rel=2e-3)
-    assert absorbed_power(np.full(5000, 9.81), 1000.0).max() < 1e-12
+        assert absorbed_power(9.81 + sine, rate)[round(10.0 * rate) :].mean() == pytest.approx(power, rel=2e-3)
+    assert absorbed_power(np.full(5000, 9.81), rate).max() < 1e-12
 
 
 @pytest.mark.property
-@pytest.mark.parametrize("rate", [499.0, 0.0, float("nan")])
+@pytest.mark.parametrize("rate", [49.0, 0.0, float("nan")])
 def test_low_rate_is_refused(rate):
     """As by the weightings of ISO 2631-1."""
-    with pytest.raises(ValueError, match=f"sampling rate is {rate} Hz, must be at least 500 Hz"):
-        sections(rate)
+    with pytest.raises(ValueError, match=f"sampling rate is {rate} Hz, must be at least 50 Hz"):
+        absorbed_power(np.zeros(100), rate)

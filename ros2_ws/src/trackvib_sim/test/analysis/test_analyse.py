@@ -14,7 +14,7 @@ from trackvib_sim.analysis.segments import TooShort, settling_of
 from trackvib_sim.analysis.summary import summarise
 from trackvib_sim.analysis.vibration import rms
 
-from .made_recordings import MS, made_recording
+from .made_recordings import made_recording
 
 SENSORS = ("chassis", "powertrain")
 
@@ -127,7 +127,7 @@ def test_settling_follows_from_the_parameters_in_the_bag(speed, seconds):
 
 @pytest.mark.property
 def test_recordings_that_cannot_be_measured_are_refused():
-    """Too short, too short between gaps, settling for less than filters do, of two rates, with a stamp that is none."""
+    """Too short, too short between gaps, settling for less than filters do, with a stamp that is none."""
     with pytest.raises(TooShort, match="2.499 s long, RMS values need 3 s"):
         analyse(made_recording(np.arange(1, 2500)))
     holes = np.setdiff1d(np.arange(1, 10_001), np.arange(0, 10_001, 2000))
@@ -137,20 +137,6 @@ def test_recordings_that_cannot_be_measured_are_refused():
     for settle in (1.9, float("nan")):
         with pytest.raises(ValueError, match=f"settle is {settle} s, must be 2 s or more"):
             analyse(whole, settle)
-    slow = whole.powertrain._replace(stamp=whole.powertrain.stamp * 2)
-    with pytest.raises(ValueError, match=r"every 0\.001 s and powertrain/imu every 0\.002 s, must be the same"):
-        analyse(whole._replace(powertrain=slow))
-    same = whole.chassis._replace(stamp=np.full(5000, MS))
-    with pytest.raises(ValueError, match="stamps of chassis/imu do not go on: 4999 steps, 4999 of 0 ms"):
-        analyse(whole._replace(chassis=same))
-    with pytest.raises(ValueError, match="do not go on: there are 1"):
-        analyse(made_recording(np.arange(1, 2)))
-
-
-@pytest.mark.property
-def test_a_wild_stamp_is_left_out():
-    """One that is ages ahead of all others is none of the time base, and it is said."""
-    whole = made_recording(np.arange(1, 5001))
     stamp = whole.chassis.stamp.copy()
     stamp[-1] = 2**62
     found = analyse(whole._replace(chassis=whole.chassis._replace(stamp=stamp)))

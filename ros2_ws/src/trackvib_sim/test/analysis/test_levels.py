@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from trackvib_sim.analysis import levels
-from trackvib_sim.analysis.iso2631 import weighted
+from trackvib_sim.analysis.iso2631 import transfer, weighted
 from trackvib_sim.analysis.levels import Levels, build_bins
 from trackvib_sim.analysis.vibration import band_limited, rms
 
@@ -77,10 +77,30 @@ def test_blocks_do_not_show(monkeypatch):
 
 @pytest.mark.property
 def test_a_low_rate_has_no_weighted_values():
-    """Where the filters would leave the standard's tolerance the numbers are nan, the others are there."""
-    numbers, _ = levels_of(np.random.default_rng(1).normal(size=(4000, 3)), 800, 400.0)
+    """Where little of the weighted band is left the numbers are nan, the others are there."""
+    numbers, _ = levels_of(np.random.default_rng(1).normal(size=(400, 3)), 80, 40.0)
     assert np.isnan([numbers[2].rms_weighted, numbers[2].crest_factor, numbers[2].vdv, numbers[2].mtvv]).all()
     assert numbers[2].rms == pytest.approx(1.0, rel=0.1)
+
+
+@pytest.mark.analytic
+def test_slow_heave_has_its_motion_sickness_dose():
+    """A sine of 0.2 Hz within vibration of 20 Hz: level and dose by the standard's factor; of less time there is none.
+
+    Blocks, shorter than the filter's memory, do not show.
+    """
+    time = np.arange(20_000) / 100.0
+    heave = 0.5 * np.sin(2.0 * np.pi * 0.2 * time) + 5.0 * np.sin(2.0 * np.pi * 20.0 * time) + 9.81
+    acceleration, stamp = np.outer(heave, (0.0, 0.0, 1.0)), np.arange(1, 20_001) * 10 * MS
+    found = Levels(100.0, build_bins(0, int(stamp[-1])))
+    assert len(list(found.add(stamp, acceleration, 200))) == 2
+    motion = found.motion_sickness()
+    level = 0.5 / np.sqrt(2.0) * np.abs(transfer("Wf", np.array([0.2])))[0]
+    assert motion.measured == pytest.approx(170.0)
+    assert motion.rms == pytest.approx(level, rel=2e-3)
+    assert motion.msdv == pytest.approx(level * np.sqrt(170.0), rel=2e-3)
+    short = Levels(100.0, build_bins(0, int(stamp[-1])))
+    assert list(short.add(stamp[:8900], acceleration[:8900], 200)) and short.motion_sickness() is None
 
 
 @pytest.mark.property

@@ -70,7 +70,8 @@ def test_a_bag_cut_anywhere_is_read_as_far_as_it_goes(bag, tmp_path, share):
         assert not recording.complete
     for part in ("chassis", "powertrain", "mounts", "answers"):
         for found, column in zip(getattr(recording, part), getattr(whole, part), strict=True):
-            np.testing.assert_array_equal(found, column[: len(found)])
+            if column is not None:
+                np.testing.assert_array_equal(found, column[: len(found)])
 
 
 @pytest.mark.slow(reason="reads many damaged bags")

@@ -23,9 +23,9 @@ from math import sqrt
 
 import numpy as np
 from numpy.polynomial import Polynomial
-from scipy import signal
 
-from .iso2631 import LEAST_RATE
+from .iso2631 import require_rate
+from .vibration import through
 
 RIDE_LIMIT = 6.0  # W, that drivers take for long: the limit of ride in the NATO Reference Mobility Model
 FOOT = 0.3048  # m
@@ -45,19 +45,11 @@ def absorbed_by_frequency(frequency):
     return _K0 * _K1 * _ABOVE(square) / _BELOW(square) / FOOT**2
 
 
-def sections(rate):
-    """Return the second-order sections (m, 6) at a sampling rate [Hz] whose output squared is the power [W].
-
-    Raises
-    ------
-    ValueError
-        The rate is below `iso2631.LEAST_RATE`.
-    """
-    if not rate >= LEAST_RATE:
-        raise ValueError(f"sampling rate is {rate} Hz, must be at least {LEAST_RATE:g} Hz for absorbed power")
+def transfer(frequency):
+    """Return the transfer function (n,) at frequencies (n,) [Hz], whose gain squared is `absorbed_by_frequency`."""
+    s = 2j * np.pi * np.asarray(frequency, dtype=float)
     gain = sqrt(_K0 * _K1 * _ABOVE.coef[-1] / _BELOW.coef[-1]) / FOOT
-    analogue = _left_roots(_ABOVE), _left_roots(_BELOW), gain
-    return signal.zpk2sos(*signal.bilinear_zpk(*analogue, fs=rate))
+    return gain * np.prod(np.subtract.outer(s, _ZEROS), axis=-1) / np.prod(np.subtract.outer(s, _POLES), axis=-1)
 
 
 def _left_roots(even):
@@ -65,17 +57,19 @@ def _left_roots(even):
     return -np.sqrt(-even.roots().astype(complex))
 
 
+_ZEROS, _POLES = _left_roots(_ABOVE), _left_roots(_BELOW)
+_MEMORY = 35.0 / -_POLES.real.max()  # s, after which the slowest part has fallen by exp(-35)
+
+
 def absorbed_power(acceleration, rate):
     """Return the absorbed power (k,) [W] at each sample of vertical accelerations (k,) [m/s²].
 
-    The filter starts as if the first sample had lasted for ever, so that gravity leaves no transient.
+    The body is at rest at first, as if the first sample had lasted for ever, so that gravity leaves no transient.
 
     Raises
     ------
     ValueError
-        As `sections` does.
+        The rate [Hz] is below `iso2631.LEAST_RATE`.
     """
-    filters = sections(rate)
-    acceleration = np.asarray(acceleration, dtype=float)
-    passed, _ = signal.sosfilt(filters, acceleration, zi=signal.sosfilt_zi(filters) * acceleration[0])
-    return np.square(passed)
+    require_rate(rate, "absorbed power")
+    return np.square(through(transfer, acceleration, rate, _MEMORY))

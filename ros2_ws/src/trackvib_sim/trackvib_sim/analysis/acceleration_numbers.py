@@ -9,7 +9,8 @@ from .segments import segments_of
 def measure_accelerations(recording, segments, bins, parts, on_progress):
     """Return the `Levels` by sensor, in `bins` and `parts`, and the `Spectra` of chassis and powertrain.
 
-    Further sensors come after those two; one that is nowhere measured long enough is left out.
+    Further sensors come after those two; one that is nowhere measured long enough is left out. A sensor that was
+    resampled to the other one's rate has levels of its own rate.
     `on_progress(done, total)` is called now and then with the samples of the two that have been looked at.
     """
     levels = {sensor: Levels(segments.rate, bins, parts) for sensor in SENSORS}
@@ -19,12 +20,13 @@ def measure_accelerations(recording, segments, bins, parts, on_progress):
         counting = []
         for sensor, first in zip(SENSORS, segment[:2], strict=True):
             inertial = getattr(recording, sensor)
-            for looked_at in _add(levels[sensor], inertial, first, segment):
-                on_progress(done + looked_at, total)
+            if sensor not in recording.own:
+                for looked_at in _add(levels[sensor], inertial, first, segment):
+                    on_progress(done + looked_at, total)
             done += segment.size
             counting.append(inertial.specific_force[first + segment.measured : first + segment.size])
         spectra.add(*counting)
-    for name, inertial in recording.sensors.items():
+    for name, inertial in {**recording.own, **recording.sensors}.items():
         rate, own = segments_of(inertial.stamp, segments)
         if own:
             levels[name] = Levels(rate, bins, parts)

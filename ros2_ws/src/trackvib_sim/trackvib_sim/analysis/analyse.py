@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from math import hypot, inf
 
+from mr_mount_controller.node_base import topics
+
 from ..bags.recording import Recording
 from ..numerics.units import NANO
 from .acceleration_numbers import axis_numbers, measure_accelerations
@@ -15,10 +17,11 @@ from .loop_health import drive, loop_health, mount_energy
 from .measured import unit_notes
 from .motion import mean_motion
 from .mount_numbers import currents, mount_numbers
-from .notes import find_notes
-from .numbers import INTERVAL, SPEED_BAND, Analysis
+from .notes import find_notes, rate_notes
+from .numbers import INTERVAL, SENSORS, SPEED_BAND, Analysis
 from .orders import track_orders
 from .parts import build_parts, numbers_in_parts
+from .placement import origin_words
 from .segments import find_segments
 from .vibration import band
 
@@ -66,11 +69,13 @@ def analyse(
             raise ValueError(f"{name} is {value:g}, must be a number above 0")
     recording = on_one_time_base(recording)
     segments = find_segments(recording, settle)
+    absent = {topics.imu_topic(sensor) for sensor in SENSORS if recording.origins and sensor not in recording.origins}
+    segments = segments._replace(timing={end: each for end, each in segments.timing.items() if end not in absent})
     loop = loop_health(recording)
     bins = build_bins(segments.begin, segments.last)
     parts = build_parts(recording, segments.settled, interval, speed_band)
     levels, spectra = measure_accelerations(recording, segments, bins, parts, on_progress)
-    sensors = axis_numbers(levels)
+    sensors, rates = axis_numbers(levels), {sensor: found.rate for sensor, found in levels.items()}
     motion = mean_motion(recording, segments.settled)
     pitch, orders, no_vehicle = read_causes(recording)
     order_levels, order_spectra = track_orders(recording, segments, orders)
@@ -83,6 +88,8 @@ def analyse(
         settle=segments.settle,
         measured=segments.measured,
         rate=segments.rate,
+        rates=rates,
+        origins={sensor: origin_words(origin) for sensor, origin in recording.origins.items()},
         band=band(segments.rate),
         **motion._asdict(),
         drive_force=force,
@@ -92,6 +99,9 @@ def analyse(
             sensor: hypot(*(numbers.rms_weighted for numbers in axes.values())) for sensor, axes in sensors.items()
         },
         absorbed_power={sensor: found.absorbed_power() for sensor, found in levels.items()},
+        motion_sickness={
+            sensor: sickness for sensor, found in levels.items() if (sickness := found.motion_sickness()) is not None
+        },
         lines=known_lines(spectra, motion, pitch, orders),
         **numbers_in_parts(parts, levels, recording, segments),
         order_levels=order_levels,
@@ -109,6 +119,7 @@ def analyse(
         notes=(
             *recording.notes,
             *find_notes(recording, segments),
+            *rate_notes(rates),
             *unit_notes(sensors),
             *missing_causes(recording, motion),
             *no_vehicle,

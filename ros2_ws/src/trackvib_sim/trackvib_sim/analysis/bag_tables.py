@@ -46,6 +46,8 @@ def rows(analysis):
             yield from _of(bag, sensor, axis, of_axis)
         for name in ("total_weighted", "absorbed_power"):
             yield bag, sensor, "", name, getattr(analysis, name)[sensor], UNITS["Analysis"][name]
+    for sensor, motion in analysis.motion_sickness.items():
+        yield from _of(bag, sensor, "z", motion, "motion_sickness_")
     for line in analysis.lines:
         yield bag, "run", "", f"frequency of {line.name}", line.frequency, UNITS["Line"]["frequency"]
         for sensor, axes in line.rms.items():

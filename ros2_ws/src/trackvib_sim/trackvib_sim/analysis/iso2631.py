@@ -1,74 +1,66 @@
-"""Frequency weightings Wk and Wd of [ISO2631-1], annex A, as digital filters.
+"""Frequency weightings Wk, Wd and Wf of [ISO2631-1], annex A, at any sampling rate from 50 Hz on.
 
-Each factor of the standard's transfer functions, band limits included, becomes a second-order section by the bilinear
-transform, whose warping is undone at the factor's own corner frequencies.
+The standard's transfer functions are applied to spectra (`vibration.through`), so that no sampling rate bends them: up
+to half the rate they are the analogue ones. Beyond it a recording holds nothing, and no weighting can bring it back.
 """
 
-from math import pi, sqrt, tan
+from math import inf, pi, sqrt
 from typing import NamedTuple
 
 import numpy as np
-from scipy import signal
 
-LEAST_RATE = 500.0  # Hz; below it the filters leave the standard's tolerance
-_BAND = (0.4, 100.0)  # Hz, of second-order Butterworth filters
+from .vibration import through
+
+LEAST_RATE = 50.0  # Hz; below it less than half of what Wk weighs most is in the band
+REACH = 100.0  # Hz, upper end of the band of Wk and Wd; a rate of less than twice it cuts into it
 
 
 class Weighting(NamedTuple):
-    """Parameters of the transfer functions, [ISO2631-1] table A.1."""
+    """Parameters of the transfer functions, [ISO2631-1] tables A.1 and A.2."""
 
+    limits: tuple  # f1, f2 [Hz] of the band, second-order Butterworth
     transition: tuple  # f3, f4 [Hz], Q4 of the transition from acceleration to velocity
     step: tuple | None  # f5 [Hz], Q5, f6 [Hz], Q6 of the upward step
+    memory: float  # s, after which the slowest part has fallen by exp(-35)
 
 
 WEIGHTINGS = {
-    "Wk": Weighting((12.5, 12.5, 0.63), (2.37, 0.91, 3.35, 0.91)),  # vertical
-    "Wd": Weighting((2.0, 2.0, 0.63), None),  # horizontal
+    "Wk": Weighting((0.4, REACH), (12.5, 12.5, 0.63), (2.37, 0.91, 3.35, 0.91), 20.0),  # vertical
+    "Wd": Weighting((0.4, REACH), (2.0, 2.0, 0.63), None, 20.0),  # horizontal
+    "Wf": Weighting((0.08, 0.63), (inf, 0.25, 0.86), (0.0625, 0.80, 0.10, 0.80), 110.0),  # motion sickness, vertical
 }
 
 
-def sections(name, rate):
-    """Return the second-order sections (m, 6) of a weighting at a sampling rate [Hz], as `scipy.signal.sosfilt` wants.
-
-    Raises
-    ------
-    ValueError
-        The rate is too low for the standard's tolerance.
-    """
-    if not rate >= LEAST_RATE:
-        raise ValueError(f"sampling rate is {rate} Hz, must be at least {LEAST_RATE:g} Hz for ISO 2631-1")
-
-    def corner(frequency):
-        return 2.0 * rate * tan(pi * frequency / rate)  # rad/s, which the bilinear transform takes to `frequency`
-
-    low, high = map(corner, _BAND)
+def transfer(name, frequency):
+    """Return the transfer function (n,) of a weighting at frequencies (n,) [Hz] above 0, as annex A writes it."""
+    p = 2j * pi * np.asarray(frequency, dtype=float)
     weighting = WEIGHTINGS[name]
-    f3, f4, q4 = weighting.transition
-    w3, w4 = corner(f3), corner(f4)
-    factors = [  # numerator and denominator in falling powers of s
-        ((1.0, 0.0, 0.0), (1.0, sqrt(2.0) * low, low**2)),
-        ((0.0, 0.0, high**2), (1.0, sqrt(2.0) * high, high**2)),
-        ((0.0, w4**2 / w3, w4**2), (1.0, w4 / q4, w4**2)),
-    ]
+    w1, w2 = (2.0 * pi * corner for corner in weighting.limits)
+    (w3, w4), q4 = (2.0 * pi * corner for corner in weighting.transition[:2]), weighting.transition[2]
+    found = 1.0 / (1.0 + sqrt(2.0) * w1 / p + (w1 / p) ** 2) / (1.0 + sqrt(2.0) * p / w2 + (p / w2) ** 2)
+    found *= (1.0 + p / w3) / (1.0 + p / (q4 * w4) + (p / w4) ** 2)
     if weighting.step:
         f5, q5, f6, q6 = weighting.step
-        w5, w6 = corner(f5), corner(f6)
-        factors.append(((1.0, w5 / q5, w5**2), (1.0, w6 / q6, w6**2)))
-    return np.array([np.concatenate(signal.bilinear(*factor, fs=rate)) for factor in factors])
+        w5, w6 = 2.0 * pi * f5, 2.0 * pi * f6
+        found *= (1.0 + p / (q5 * w5) + (p / w5) ** 2) / (1.0 + p / (q6 * w6) + (p / w6) ** 2) * (w5 / w6) ** 2
+    return found
 
 
 def weighted(acceleration, name, rate):
-    """Return accelerations (k, ...) [m/s^2], one row a sample, under the weighting "Wk" or "Wd".
+    """Return accelerations (k, ...) [m/s^2], one row a sample, under the weighting "Wk", "Wd" or "Wf".
 
-    The filter starts as if the first sample had lasted for ever, so that gravity leaves no transient.
+    The weighting starts as if the first sample had lasted for ever, so that gravity leaves no transient.
 
     Raises
     ------
     ValueError
-        As `sections` does.
+        The rate [Hz] is below `LEAST_RATE`.
     """
-    filters = sections(name, rate)
-    acceleration = np.asarray(acceleration, dtype=float)
-    at_rest = signal.sosfilt_zi(filters)
-    start = at_rest.reshape(*at_rest.shape, *[1] * (acceleration.ndim - 1)) * acceleration[0]
-    return signal.sosfilt(filters, acceleration, axis=0, zi=start)[0]
+    require_rate(rate, "ISO 2631-1")
+    return through(lambda frequency: transfer(name, frequency), acceleration, rate, WEIGHTINGS[name].memory)
+
+
+def require_rate(rate, what):
+    """Raise ValueError if a sampling rate [Hz] is below `LEAST_RATE`, of which `what` cannot be had."""
+    if not rate >= LEAST_RATE:
+        raise ValueError(f"sampling rate is {rate} Hz, must be at least {LEAST_RATE:g} Hz for {what}")

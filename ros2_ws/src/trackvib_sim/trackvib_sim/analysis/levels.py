@@ -10,14 +10,17 @@ from typing import NamedTuple
 import numpy as np
 
 from ..numerics.units import NANO
+from . import iso2631
 from .absorbed_power import absorbed_power
 from .iso2631 import LEAST_RATE, weighted
-from .numbers import AxisNumbers
+from .numbers import AxisNumbers, MotionSickness
 from .stamps import blocks
 from .vibration import band_limited
 
 BLOCK = 120.0  # s
 MARGIN = 20.0  # s; the slowest filter has fallen by exp(-35) then
+MOTION_LEAD = 30.0  # s of each segment in which Wf settles, three periods of the slowest motion that it weighs
+MOTION_LEAST = 60.0  # s, less than which tells nothing of such motion
 RUNNING = 1.0  # s, over which a running RMS is taken
 WEIGHTINGS = ("Wd", "Wd", "Wk")  # along x, y, z
 BINS = 3600  # of a history, at most
@@ -82,7 +85,7 @@ class Levels:
     """What has been summed up of one sensor: over all that counts, over parts of it by name, and in bins of the bag."""
 
     def __init__(self, rate, bins, parts=MappingProxyType({})):
-        self._rate = rate
+        self.rate = self._rate = rate  # of the samples, Hz
         self._bins, self._parts = _Sums(bins), {name: _Sums(each) for name, each in parts.items()}
         self._count = 0
         self._origin = None
@@ -90,6 +93,7 @@ class Levels:
         self._squared, self._fourth = np.zeros((2, 3))
         self._peak, self._weighted_peak, self._running = np.zeros((3, 3))
         self._absorbed = 0.0
+        self._motion_count, self._motion = 0, 0.0
 
     def add(self, stamp, acceleration, measured):
         """Add a segment, and say after each block how much of it is done.
@@ -121,7 +125,19 @@ class Levels:
                 self._measure(*(each[counting] for each in (around, limited, perceived)))
                 before = max(first + 1 - running, measured - begin)
                 self._run(np.square(perceived[before : inner.stop]), running)
+            self._add_motion(acceleration, block, measured)
             yield block.stop
+
+    def _add_motion(self, acceleration, block, measured):
+        """Add what of a block of a segment counts for motion sickness; its filter remembers longer than the others."""
+        first = max(block.start, measured, round(MOTION_LEAD * self._rate))
+        if first >= block.stop or self._rate < LEAST_RATE:
+            return
+        margin = round(iso2631.WEIGHTINGS["Wf"].memory * self._rate)
+        begin = max(block.start - margin, 0)
+        around = np.array(acceleration[begin : block.stop + round(MARGIN * self._rate), 2])
+        self._motion += np.square(weighted(around, "Wf", self._rate)[first - begin : block.stop - begin]).sum()
+        self._motion_count += block.stop - first
 
     def _perceived(self, acceleration):
         """Return weighted accelerations (k, 3) and the absorbed power (k,); nan where samples come too slowly."""
@@ -170,6 +186,15 @@ class Levels:
     def absorbed_power(self):
         """Return the mean absorbed power of the vertical [W]."""
         return float(self._absorbed / self._count)
+
+    def motion_sickness(self):
+        """Return the `MotionSickness`; None of too little time."""
+        seconds = self._motion_count / self._rate
+        if not seconds >= MOTION_LEAST:
+            return None
+        return MotionSickness(
+            float(np.sqrt(self._motion / self._motion_count)), float(np.sqrt(self._motion / self._rate)), seconds
+        )
 
     def history(self):
         """Return the `PartLevels` in the bins of the bag, over all samples."""

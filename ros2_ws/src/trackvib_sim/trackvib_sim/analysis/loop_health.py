@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..vehicle.mount_energy import MountEnergy
+from .numbers import SENSORS
 from .stamps import losses
 
 DRIVE = ("drive_work_J", "way_m", "time")  # likewise
@@ -13,7 +14,10 @@ MOUNTS = tuple(f"mount_{part}_J" for part in MountEnergy._fields)  # in the simu
 def loop_health(recording):
     """Return the `losses`, and what the simulator reported last as text, but for work and way."""
     other = (*MOUNTS, *DRIVE[:2])
-    return losses(recording) | {key: text for key, text in recording.diagnostics.items() if key not in other}
+    lost = losses(recording)
+    if recording.origins:  # of a sensor that is not there nothing is lost
+        lost |= {f"lost_{sensor}": None for sensor in SENSORS if sensor not in recording.origins}
+    return lost | {key: text for key, text in recording.diagnostics.items() if key not in other}
 
 
 def drive(recording):

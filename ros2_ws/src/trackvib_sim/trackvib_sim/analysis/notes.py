@@ -3,9 +3,10 @@
 import numpy as np
 from mr_mount_controller.node_base import topics
 
-from .iso2631 import LEAST_RATE
+from .iso2631 import LEAST_RATE, REACH
 from .stamps import BLOCK, blocks
 
+_NEARLY = 1e-3  # relative, by which a rate may miss what it is meant to be
 _WITHOUT = {  # what cannot be had of a bag without these topics
     topics.MOUNT_STATE: "no numbers of the mounts",
     topics.COIL_CURRENT: "no demanded currents, and nobody knows which samples were answered",
@@ -28,11 +29,24 @@ def find_notes(recording, segments):
             % found.samples,  # of a sensor that measured nothing all
         }
         notes += [f"{end}: {text}" for text, count in counts.items() if count]
-    if segments.rate < LEAST_RATE:
-        notes.append(
-            f"sampling rate is {segments.rate:g} Hz, below {LEAST_RATE:g} Hz: no weighted values of ISO 2631-1"
-        )
     return notes + [f"no {end} in the bag: {what}" for end, what in _WITHOUT.items() if end not in recording.streams]
+
+
+def rate_notes(rates):
+    """Say what of the weighted values the rates of sensors [Hz], by name, cannot hold."""
+    notes = []
+    for rate in sorted(set(rates.values())):
+        names = ", ".join(name for name, each in rates.items() if each == rate)
+        if rate < LEAST_RATE:
+            notes.append(
+                f"{names}: sampling rate is {rate:.6g} Hz, below {LEAST_RATE:g} Hz: no weighted values of ISO 2631-1"
+            )
+        elif rate < 2.0 * REACH * (1.0 - _NEARLY):
+            notes.append(
+                f"{names}: sampling rate is {rate:.6g} Hz, so that weighted values hold what is below {0.5 * rate:.4g} "
+                f"Hz; Wk and Wd of ISO 2631-1 reach {REACH:g} Hz"
+            )
+    return notes
 
 
 def _not_finite(columns):

@@ -34,6 +34,15 @@ class AxisNumbers:
 
 
 @dataclass(frozen=True)
+class MotionSickness:
+    """What the slow vertical motion of one sensor does to people, ISO 2631-1 with Wf."""
+
+    rms: float = _number("m/s²")  # weighted
+    msdv: float = _number("m/s^1.5")  # motion sickness dose value: root of the integral of the square over the time
+    measured: float = _number("s")  # time that counts
+
+
+@dataclass(frozen=True)
 class Line:
     """A line of the spectrum with a known cause, and what lies in a band around it."""
 
@@ -237,7 +246,9 @@ class Analysis:
     duration: float = _number("s")  # from the start to the last sample of both sensors
     settle: float = _number("s")  # of the start that does not count
     measured: float = _number("s")  # time that counts
-    rate: float = _number("Hz")  # of the sensors
+    rate: float = _number("Hz")  # of both sensors, the slower one's where they differ
+    rates: dict = _number("Hz")  # sensor -> its own rate
+    origins: dict  # sensor -> where its samples come from and what was done to them, in words
     band: tuple = _number("Hz")  # low and high end of "band-limited"
     speed: float = _number("m/s")  # mean forward speed of the hull
     speed_deviation: float = _number("m/s")  # its standard deviation
@@ -248,6 +259,7 @@ class Analysis:
     sensors: dict  # sensor -> axis -> AxisNumbers
     total_weighted: dict = _number("m/s²")  # sensor -> root of the sum of the three rms_weighted squared
     absorbed_power: dict = _number("W")  # sensor -> mean, of the vertical
+    motion_sickness: dict  # sensor -> MotionSickness; those left out that were measured too short
     lines: tuple  # `Line`s, link passing first
     by_way: tuple  # `WayInterval`s in which anything was measured; empty if the bag does not tell the way
     by_speed: tuple  # `SpeedBand`s, likewise

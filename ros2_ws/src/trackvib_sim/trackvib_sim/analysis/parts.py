@@ -82,13 +82,14 @@ def numbers_in_parts(parts_by_name, levels, recording, segments):
 
 
 def _filled(kind, parts, levels, name, recording, segments):
+    rate = levels[SENSORS[0]].rate
     levels = {sensor: found.parts()[name] for sensor, found in levels.items()}
     means = []
     for slow in (speed_of(recording), engine_speed_of(recording)):
         counting = None if slow is None else slow.after(segments.settled)
         mean = np.full(parts.count, np.nan)
         means.append(mean if counting is None else bin_means(parts, counting.stamp, counting.value[:, None])[0][:, 0])
-    seconds = levels[SENSORS[0]].count / segments.rate
+    seconds = levels[SENSORS[0]].count / rate
     for k in np.flatnonzero(seconds > 0.0):
         yield kind(
             low=float(parts.edges[k]),

@@ -10,6 +10,8 @@ Bags that are written
 Bags that are read
     reading, columns, cdr_layout, recording (as columns of numbers), raw_messages (as bytes), contents (from the
     index), playing (in order of time).
+Bags of others
+    sources (which sensors there are), accelerations, places, transforms, csv_recording.
 
 A bag is not trusted: lengths, depths and sizes in it are checked before they are used, and what is damaged is named
 with the way out. Nothing here knows a vehicle or a simulation, and nothing imports rclpy.

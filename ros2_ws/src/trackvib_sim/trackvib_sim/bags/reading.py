@@ -14,7 +14,9 @@ from mr_mount_controller.node_base import topics
 from rosbags.serde import SerdeError
 
 from ..numerics.units import NANO
+from .accelerations import ACCELERATION_TYPES, IMU_COLUMNS, Accelerations
 from .columns import Columns, Topic
+from .csv_recording import csv_recording, pair_of
 from .definitions import Definition
 from .errors import BagError
 from .files import find_files
@@ -22,38 +24,28 @@ from .limits import TooLarge
 from .mcap_records import DAMAGE
 from .mcap_walk import Walk
 from .opening import how_to_convert, opened
+from .places import ODOMETRY_COLUMNS, PLACE_TYPES, Places
 from .raw_messages import NO_SCHEMA
-from .recording import Answers, Commands, Drive, Inertial, LoopCounts, Mounts, Odometry, Recording
+from .recording import Answers, Commands, Drive, LoopCounts, Mounts, Recording
+from .sources import Sources, end_of_sensor, is_csv
+from .transforms import TF_STATIC, TF_TYPE, transforms_in
 from .unfolding import unfold_messages
 
-_SENSOR = Columns(
-    topics.IMU_TYPE,
-    Inertial,
-    {
-        "stamp": "header.stamp",
-        "specific_force": ("linear_acceleration", (3,)),
-        "angular_velocity": ("angular_velocity", (3,)),
-    },
-    first={"covariance": ("linear_acceleration_covariance", (9,))},
-    logged="logged",
-)
 HEADER_TIME, LOG_TIME = TIMES = ("header", "log")  # that may be the time base
 _NUMBERS = {name: (name, (-1,)) for name in ("current", "stiffness", "damping")}
 _VECTORS = {name: (name, (-1, 3)) for name in ("deflection", "velocity", "force")}
 _DRIVE = ("distance", "offset", "wanted_speed", "curvature", "engine_speed", "gear")
 _SPROCKETS = {name: (name, (2,)) for name in ("sprocket_speed", "sprocket_torque")}
 COLUMNS = {
-    topics.CHASSIS_IMU: _SENSOR,
-    topics.POWERTRAIN_IMU: _SENSOR,
+    topics.CHASSIS_IMU: IMU_COLUMNS,
+    topics.POWERTRAIN_IMU: IMU_COLUMNS,
     topics.MOUNT_STATE: Columns(topics.MOUNT_STATE_TYPE, Mounts, {
         "stamp": "header.stamp", **_NUMBERS, **_VECTORS, "dissipated_power": ("dissipated_power", (-1,)),
     }),
     topics.COIL_CURRENT: Columns(topics.COIL_CURRENT_TYPE, Answers, {
         "sample_stamp": "sample_stamp", "current": ("current", (-1,)),
     }),
-    topics.ODOMETRY: Columns(topics.ODOMETRY_TYPE, Odometry, {
-        "stamp": "header.stamp", "position": ("pose.pose.position", (3,)), "speed": ("twist.twist.linear.x", ()),
-    }),
+    topics.ODOMETRY: ODOMETRY_COLUMNS,
     topics.DRIVE_STATE: Columns(topics.DRIVE_STATE_TYPE, Drive, {
         "stamp": "header.stamp", **{name: (name, ()) for name in _DRIVE}, **_SPROCKETS,
     }),
@@ -68,10 +60,11 @@ _RARE = {  # read message by message
     topics.DRIVE_DESCRIPTION: topics.DRIVE_DESCRIPTION_TYPE,
     topics.MOUNT_DESCRIPTION: topics.MOUNT_DESCRIPTION_TYPE,
     topics.ROAD_PROFILE: topics.ROAD_PROFILE_TYPE,
+    TF_STATIC: TF_TYPE,
 }
 _TYPES = {end: columns.type_name for end, columns in COLUMNS.items()} | _RARE
 _FURTHER = topics.imu_topic("")  # stands for the end of every further sensor's topic
-_MOST_FURTHER = 100
+_SENSOR, _PLACE = "sensor", "place"  # stand for topics that are told by their types
 _ROS_1 = "ros1msg"  # encoding of the definitions of ROS 1, whose messages are serialised in another way
 _ANSWERS = ("accepted", "late", "duplicate", "not_finite")  # to samples that were out, among the diagnostics
 # a definition that is damaged or not the one we know gives the others where it is applied
@@ -85,6 +78,7 @@ def read_recording(
     path: str | Path,
     on_progress: Callable[[int, int], None] = lambda done, total: None,
     time: str = HEADER_TIME,
+    sources: Sources = Sources(),  # noqa: B008, never changes
 ) -> Recording:
     """Return the `Recording` in a bag, a folder with MCAP files or one such file, as far as it goes.
 
@@ -97,11 +91,14 @@ def read_recording(
         Is told now and then how many bytes of how many have been read.
     time : str
         Which times are the stamps: "header", those in the messages, or "log", those at which they were recorded.
+    sources : Sources
+        Which sensors there are and where they are found. A sensor of the two that is not there has no sample that is a
+        number; a path that ends in .csv is a file of samples.
 
     Raises
     ------
     BagError
-        The bag cannot be read, holds no Imu messages of one of the sensors, or those of several vehicles.
+        The bag cannot be read, holds none of the sensors, or those of several vehicles.
 
     Examples
     --------
@@ -112,7 +109,9 @@ def read_recording(
     >>> recording.chassis.specific_force.shape[1], recording.complete
     (3, True)
     """
-    path, reading = Path(path), _Reading(by_log=time == LOG_TIME)
+    path, reading = Path(path), _Reading(time == LOG_TIME, sources)
+    if is_csv(str(path)):
+        return csv_recording(path, sources)
     found = find_files(path)
     files = found.files
     try:
@@ -127,15 +126,16 @@ def read_recording(
         raise BagError(f"bag {str(path)!r} cannot be read: {str(error) or type(error).__name__}") from None
     on_progress(total, total)
     by_log = ("stamps are the times at which messages were recorded",) if time == LOG_TIME else ()
-    return recording._replace(notes=(*found.notes, *by_log))
+    return recording._replace(notes=(*found.notes, *recording.notes, *by_log))
 
 
 class _Reading:
     """What has been read of a bag."""
 
-    def __init__(self, by_log):
-        self._by_log = by_log
-        self._columns, self._further, self._roads, self._texts, self._mountings = {}, {}, {}, {}, {}  # by topic
+    def __init__(self, by_log, sources):
+        self._by_log, self._sources = by_log, sources
+        self._accelerations, self._places, self._transforms = Accelerations(sources, by_log), Places(by_log), {}
+        self._columns, self._roads, self._texts, self._mountings = {}, {}, {}, {}  # by topic
         self._loop_counts, self._diagnostics, self._ros_1 = [], {}, set()
         self._provenance, self._counts, self._complete = {}, Counter(), True
 
@@ -162,29 +162,42 @@ class _Reading:
                     of_channel = numbers == number
                     start, size = part.messages.start[of_channel], part.messages.size[of_channel]
                     self._counts[channel.topic] += len(start)
-                    end = _end_of(channel.topic)
+                    if schema is not None:
+                        self._accelerations.see(channel.topic, schema.name, len(start))
                     if schema is not None and schema.encoding == _ROS_1:
                         self._ros_1.add(channel.topic)
-                    elif end is not None and schema is not None and schema.name == _TYPES.get(end, topics.IMU_TYPE):
+                    elif schema is not None and (end := self._end(channel.topic, schema.name)) is not None:
                         if schema.id not in definitions:
                             definitions[schema.id] = Definition(schema.name, schema.encoding, schema.data)
                         messages = unfold_messages(part.data, start, size)
                         logged = part.messages.head["log_time"][of_channel].astype(np.int64)
-                        self._take(channel.topic, end, definitions[schema.id], *messages, logged)
+                        self._take(channel.topic, schema.name, end, definitions[schema.id], *messages, logged)
                 on_progress(part.end)
             _require_undamaged(walk)
             self._complete &= walk.complete
 
-    def _take(self, topic, end, definition, data, start, size, logged):
+    def _end(self, topic, type_name):
+        """Return as what messages of a type are taken; None where they are not."""
+        if self._sources.sensor_on(topic) is not None:
+            return _SENSOR if type_name in ACCELERATION_TYPES else None
+        end = _end_of(topic)
+        if end in (*_NEEDED, _FURTHER):
+            return _SENSOR if type_name == topics.IMU_TYPE else None
+        if end is not None:
+            return end if type_name == _TYPES[end] else None
+        return _PLACE if type_name in PLACE_TYPES else None
+
+    def _take(self, topic, type_name, end, definition, data, start, size, logged):
+        if end == _SENSOR:
+            self._accelerations.take(topic, definition, data, start, size, logged)
+            return
+        if end == _PLACE:
+            self._places.take(topic, type_name, definition.kind, data, start, size, logged)
+            return
         if end in COLUMNS:
             if topic not in self._columns:
                 self._columns[topic] = Topic(COLUMNS[end], self._by_log)
             self._columns[topic].add(definition.kind, data, start, size, logged)
-            return
-        if end == _FURTHER:
-            if len(self._further) < _MOST_FURTHER:
-                further = self._further.setdefault(topic, Topic(_SENSOR, self._by_log))
-                further.add(definition.kind, data, start, size, logged)
             return
         for first, length in zip(start.tolist(), size.tolist(), strict=True):
             message = definition.message(data[first : first + length].data)
@@ -192,6 +205,8 @@ class _Reading:
                 self._texts[topic] = message.data
             elif end == topics.MOUNT_DESCRIPTION:
                 self._mountings[topic] = described(message)
+            elif end == TF_STATIC:
+                self._transforms |= transforms_in(message)
             elif end == topics.ROAD_PROFILE:
                 # copies, for these arrays would keep the whole part in memory
                 heights = message.left.copy(), message.right.copy()
@@ -212,43 +227,45 @@ class _Reading:
         found = {end: [] for end in _TYPES}
         for topic in self._columns | self._roads | self._texts | self._mountings:
             found[_end_of(topic)].append(topic)
-        missing = [end for end in _NEEDED if not found[end]]
-        if missing and self._ros_1:
+        if not self._accelerations.taken and self._ros_1:
             raise BagError(
                 f"bag {str(path)!r} holds messages of ROS 1 on {', '.join(sorted(self._ros_1))}; "
                 f"{how_to_convert('FILE.bag')}, where FILE.bag is the bag of ROS 1 from which it was made"
             )
-        if missing:
-            raise BagError(f"bag {str(path)!r} holds no {_SENSOR.type_name} on {', '.join(missing)}")
-        space = found[topics.CHASSIS_IMU][0].removesuffix(topics.CHASSIS_IMU)
-        if any(found[end] != [f"{space}{end}"] for end in _NEEDED):
-            several = ", ".join(topic for end in _NEEDED for topic in found[end])
-            raise BagError(f"bag {str(path)!r} holds sensors of several vehicles, must be one: {several}")
+        try:
+            space, sensors = self._accelerations.sensors()
+        except ValueError as error:
+            raise BagError(f"bag {str(path)!r}: {error}") from None
         chosen = {
             end: f"{space}{end}" if f"{space}{end}" in candidates else candidates[0]
             for end, candidates in found.items()
             if candidates
         }
-        columns = {end: self._columns[chosen[end]].columns() for end in COLUMNS if end in chosen}
+        columns = {end: self._columns[chosen[end]].columns() for end in COLUMNS if end in chosen and end not in _NEEDED}
         mounting = self._mounting(chosen, columns)
         if topics.COIL_CURRENT in chosen:  # answers of another number of currents are none
             fits = lambda answers: answers.current.shape[1] == mounting.coils  # noqa: E731
             answers = self._columns[chosen[topics.COIL_CURRENT]].columns(fits)
             columns[topics.COIL_CURRENT] = answers if fits(answers) else None
-        sensors = self._sensors(space)
-        chosen |= {topics.imu_topic(name): f"{space}{topics.imu_topic(name)}" for name in sensors}
+        odometry, notes = columns.get(topics.ODOMETRY), []
+        if odometry is None:
+            odometry, notes = self._places.odometry()
+        chosen |= {end_of_sensor(name): origin.source for name, (_, origin) in sensors.items()}
+        if topics.ODOMETRY not in chosen and odometry is not None:
+            chosen[topics.ODOMETRY] = ""
         # the first word of the next run may be among the last ones of this
         counts = np.array(sorted(self._loop_counts), np.int64).reshape(-1, 3)
         return Recording(
             path=path,
             topics=chosen,
-            chassis=columns[topics.CHASSIS_IMU],
-            powertrain=columns[topics.POWERTRAIN_IMU],
-            sensors=sensors,
+            **pair_of({name: inertial for name, (inertial, _) in sensors.items()}),
+            origins={name: origin for name, (_, origin) in sensors.items()},
+            transforms=self._transforms,
+            notes=tuple(notes),
             mounting=mounting,
             mounts=columns.get(topics.MOUNT_STATE),
             answers=columns.get(topics.COIL_CURRENT),
-            odometry=columns.get(topics.ODOMETRY),
+            odometry=odometry,
             drive=columns.get(topics.DRIVE_STATE),
             commands=columns.get(topics.DRIVE_COMMAND),
             road=self._roads.get(chosen.get(topics.ROAD_PROFILE), []),
@@ -260,15 +277,6 @@ class _Reading:
             counts=self._counts,
             complete=self._complete,
         )
-
-    def _sensors(self, space):
-        """Return what further sensors there are beside chassis and powertrain, by name."""
-        found = {}
-        for topic in sorted(self._further):
-            name = topic.removeprefix(space).removesuffix(_FURTHER)
-            if "/" not in name and topic == f"{space}{topics.imu_topic(name)}":
-                found[name] = self._further[topic].columns()
-        return found
 
     def _mounting(self, chosen, columns):
         """Return the `Mounting` that is described, or else of as many coils and mounts as there are numbers."""

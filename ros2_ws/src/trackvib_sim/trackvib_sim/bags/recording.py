@@ -2,6 +2,7 @@
 
 from collections import Counter
 from pathlib import Path
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -19,9 +20,11 @@ class Inertial(NamedTuple):
 
     stamp: np.ndarray  # (k,) ns
     specific_force: np.ndarray  # (k, 3) m/s^2
-    angular_velocity: np.ndarray  # (k, 3) rad/s
+    angular_velocity: np.ndarray | None = None  # (k, 3) rad/s, where it was measured
     logged: np.ndarray | None = None  # (k,) when each message was recorded, ns
     covariance: np.ndarray | None = None  # (k,) first number of that of the force; -1: not measured
+    orientation: np.ndarray | None = None  # (k, 4) x y z w of the sensor in a world with z up, where it is asked for
+    orientation_covariance: np.ndarray | None = None  # (k,) first number, likewise
 
     def at(self, index):
         """Return the samples with some index, in its order."""
@@ -118,6 +121,9 @@ class Recording(NamedTuple):
     counts: Counter  # messages a topic
     complete: bool  # False where the bag was cut short
     notes: tuple = ()  # sentences: what of the bag was left out, and what was done to it
+    origins: dict = MappingProxyType({})  # sensor -> `sources.Origin`, of those that are there
+    transforms: dict = MappingProxyType({})  # frame -> frame above it and quaternion in it, as /tf_static tells
+    own: dict = MappingProxyType({})  # sensor -> `Inertial` at its own rate, where it was resampled to the other one's
     clocks: dict | None = None  # end of topic -> `analysis.numbers.Clock`, once sensors are on one time base
 
     @property
@@ -135,14 +141,15 @@ class Recording(NamedTuple):
         return {end: columns for end, columns in parts.items() if columns is not None}
 
     def require(self, *parts):
-        """Make sure that this is one run, with some optional parts: "mounts", "road", "vehicle".
+        """Make sure that this is one run with both sensors and some optional parts: "mounts", "road", "vehicle".
 
         Raises
         ------
         BagError
             A part is missing, or stamps go back.
         """
-        missing = [_TOPIC_OF[part] for part in parts if not getattr(self, part)]
+        absent = [sensor for sensor in ("chassis", "powertrain") if self.origins and sensor not in self.origins]
+        missing = [*map(topics.imu_topic, absent), *(_TOPIC_OF[part] for part in parts if not getattr(self, part))]
         if missing:
             raise BagError(f"bag {str(self.path)!r} holds no messages on {', '.join(missing)}")
         for end, stream in self.streams.items():

@@ -14,15 +14,17 @@ from ..analysis.clocks.time_base import on_one_time_base
 from ..analysis.levels import WEIGHTINGS
 from ..analysis.measured import in_unit
 from ..analysis.numbers import AXES, SENSORS
+from ..analysis.placement import in_vehicle_axes
 from ..analysis.report.page import write_report
 from ..analysis.report.report_data import build_report_data
 from ..bags.files import bag_files
 from ..bags.reading import read_recording
+from ..bags.sources import is_csv
 from ..console import Description, Terminal
 from .result_folder import CommandError, all_or_nothing
 
 
-def run_analyze(bags, settle, interval, speed_band, out, time, unit):
+def run_analyze(bags, settle, interval, speed_band, out, time, unit, sources):
     """Analyse some bags; see `analyze_cli`.
 
     Raises
@@ -34,18 +36,14 @@ def run_analyze(bags, settle, interval, speed_band, out, time, unit):
     console = Terminal()
     folder = out or Path("analyses") / f"{datetime.now():%Y%m%dT%H%M%S}"
     with all_or_nothing(folder) as folder:
-        _require_different(bags)
+        require_different(bags)
         analyses, report_data_list = [], []
-        with _progress(console) as progress:
+        with progress_on(console) as progress:
             for bag in bags:
-                recording = read_recording(bag, _reporter(progress, f"reading {bag}"), time)
-                try:
-                    recording = on_one_time_base(in_unit(recording, unit))
-                    reporter = _reporter(progress, f"measuring {bag}")
-                    analyses.append(analyse(recording, settle, reporter, interval, speed_band))
-                    report_data_list.append(build_report_data(recording, analyses[-1]))
-                except ValueError as error:
-                    raise CommandError(f"bag {bag!r}: {error}") from None
+                how = settle, interval, speed_band, time, unit, sources
+                recording, analysis, report_data = measure(bag, progress, *how)
+                analyses.append(analysis)
+                report_data_list.append(report_data)
                 del recording  # and with it large temporary files, before the next one makes its own
         write_tables(analyses, folder)
         write_report(report_data_list, folder / "report.html")
@@ -60,17 +58,35 @@ def run_analyze(bags, settle, interval, speed_band, out, time, unit):
     console.print(f"left in {folder}: {', '.join(sorted(each.name for each in folder.iterdir()))}", soft_wrap=True)
 
 
-def _require_different(bags):
+def measure(bag, progress, settle, interval, speed_band, time, unit, sources):
+    """Return the recording in a bag on one time base, its `Analysis` and its `ReportData`.
+
+    Raises
+    ------
+    BagError, CommandError
+        It cannot be read or measured.
+    """
+    recording = read_recording(bag, _reporter(progress, f"reading {bag}"), time, sources)
+    try:
+        recording = on_one_time_base(in_vehicle_axes(in_unit(recording, unit), sources))
+        analysis = analyse(recording, settle, _reporter(progress, f"measuring {bag}"), interval, speed_band)
+        return recording, analysis, build_report_data(recording, analysis)
+    except ValueError as error:
+        raise CommandError(f"bag {bag!r}: {error}") from None
+
+
+def require_different(bags):
     """Refuse a bag that is given twice: the tables tell bags apart by their paths."""
     seen = set()
     for bag in bags:
-        files = set(map(realpath, bag_files(bag)))
+        files = {realpath(bag)} if is_csv(bag) else set(map(realpath, bag_files(bag)))
         if files & seen:
             raise CommandError(f"bag {bag!r} is given twice")
         seen |= files
 
 
-def _progress(console):
+def progress_on(console):
+    """Return a display of how far reading and measuring have come."""
     columns = (Description(), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
     return Progress(*columns, console=console)
 
@@ -82,12 +98,14 @@ def _reporter(progress, description):
 
 def _levels(analyses):
     title = "acceleration, m/s²: band-limited; weighted by ISO 2631-1 (VDV in m/s^1.75); power absorbed by a driver, W"
-    table = _table(title, ("",))
+    table = new_table(title, ("",))
     for name in ("RMS", "peak", "weighted", "crest", "MTVV", "VDV", "power"):
         table.add_column(name, justify="right")
     for analysis in _sections(table, analyses, "sensors"):
         for sensor, axes in analysis.sensors.items():
             for axis, n in axes.items():
+                if isnan(n.rms):
+                    continue
                 weighted = f"{WEIGHTINGS[AXES.index(axis)]} {_told(n.rms_weighted)}"
                 rest = (n.crest_factor, n.mtvv, n.vdv, *((analysis.absorbed_power[sensor],) if axis == "z" else ()))
                 table.add_row(f"{sensor} {axis}", _told(n.rms), _told(n.peak), weighted, *map(_told, rest))
@@ -96,7 +114,7 @@ def _levels(analyses):
 
 def _speeds(analyses):
     """By speed, of bags in which it varies."""
-    table = _table("by speed: vertical RMS, m/s², and power absorbed by a driver, W", ("speed, m/s",))
+    table = new_table("by speed: vertical RMS, m/s², and power absorbed by a driver, W", ("speed, m/s",))
     for name in ("time, s", "engine, r/min", *(name for sensor in SENSORS for name in (sensor, "W"))):
         table.add_column(name, justify="right")
     for analysis in _sections(table, [each for each in analyses if len(each.by_speed) > 1], "by_speed"):
@@ -109,7 +127,7 @@ def _speeds(analyses):
 
 
 def _lines(analyses):
-    table = _table("RMS about lines with a known cause, m/s²", ("", "Hz", ""))
+    table = new_table("RMS about lines with a known cause, m/s²", ("", "Hz", ""))
     for axis in AXES:
         table.add_column(axis, justify="right")
     for analysis in _sections(table, analyses, "lines"):
@@ -122,7 +140,7 @@ def _lines(analyses):
 
 
 def _mounts(analyses):
-    table = _table("mounts: vertical travel (mm) and force (kN) about their means, heat, current (A)", ("",))
+    table = new_table("mounts: vertical travel (mm) and force (kN) about their means, heat, current (A)", ("",))
     for name in ("travel", "peak", "force", "peak", "heat, W", "mean", "least", "most"):
         table.add_column(name, justify="right")
     for analysis in _sections(table, analyses, "mounts"):
@@ -149,7 +167,7 @@ def _sections(table, analyses, name):
             yield analysis
 
 
-def _table(title, words):
+def new_table(title, words):
     table = Table(title=title, title_justify="left")
     for name in words:
         table.add_column(name)

@@ -6,10 +6,12 @@ from ..analysis.numbers import INTERVAL, SPEED_BAND
 from ..analysis.settling import SHORTEST_SETTLING
 from .endings import fail
 from .option_types import FiniteRange, largest_chunk_option
+from .sensor_options import sensor_options
 
 
 @click.command()
 @largest_chunk_option
+@sensor_options
 @click.argument("bags", nargs=-1, required=True, metavar="BAG...", type=click.Path())
 @click.option(
     "--settle",
@@ -36,27 +38,13 @@ from .option_types import FiniteRange, largest_chunk_option
     help="Width of the bands of speed by which numbers are given, in m/s.",
 )
 @click.option(
-    "--time",
-    type=click.Choice(("header", "log")),
-    default="header",
-    show_default=True,
-    help="Which times are the time base: those in the messages' headers, or those at which messages were recorded.",
-)
-@click.option(
-    "--unit",
-    type=click.Choice(("m/s2", "g")),
-    default="m/s2",
-    show_default=True,
-    help="Unit of the recorded accelerations.",
-)
-@click.option(
     "--out",
     type=click.Path(file_okay=False),
     default=None,
     help="Folder to make for the results.  [default: analyses/<time>]",
 )
-def analyze(bags, settle, interval, speed_band, out, time, unit):
-    """Turn bags into an HTML report and numbers.
+def analyze(bags, settle, interval, speed_band, out, time, unit, sources):
+    """Turn bags, or CSV files of samples, into an HTML report and numbers.
 
     RMS, ISO 2631-1 and absorbed power, by way and by speed, too; spectra, orders of the engine, mounts and currents:
     report.html for the eye (of several bags a comparison), JSON, CSV and
@@ -67,6 +55,6 @@ def analyze(bags, settle, interval, speed_band, out, time, unit):
     from .result_folder import CommandError
 
     try:
-        run_analyze(bags, settle, interval, speed_band, out, time, unit)
+        run_analyze(bags, settle, interval, speed_band, out, time, unit, sources)
     except (BagError, CommandError) as error:
         fail(error)

@@ -7,6 +7,7 @@ from ...numerics.units import NANO
 from ..measured import sound_samples
 from ..numbers import SENSORS
 from ..stamps import period_of, timing
+from .common_band import on_common_band
 from .mending import NoClock, is_even, mend
 from .notes import clock_notes
 from .resampling import resampled
@@ -35,6 +36,10 @@ def on_one_time_base(recording):
     found = {}
     for name, inertial in {**{each: getattr(recording, each) for each in SENSORS}, **recording.sensors}.items():
         end = _ENDS.get(name, topics.imu_topic(name))
+        if recording.origins and name not in recording.origins:
+            found[name] = inertial
+            notes.append(f"no {name} in the recording: its numbers, and those that need both sensors, cannot be had")
+            continue
         found[name], clock, words = _mended(inertial, end)
         notes += words
         if clock is not None:
@@ -45,7 +50,9 @@ def on_one_time_base(recording):
     for step in (_by_one_clock, _at_the_same_instants):
         powertrain, words = step(chassis, powertrain)
         notes += words
-    return recording._replace(chassis=chassis, powertrain=powertrain, sensors=found, notes=tuple(notes), clocks=clocks)
+    pair, own, words = on_common_band({"chassis": chassis, "powertrain": powertrain}, ALIKE)
+    notes += words
+    return recording._replace(**pair, sensors=found, own=own, notes=tuple(notes), clocks=clocks)
 
 
 def _mended(inertial, end):

@@ -21,7 +21,8 @@ def facts(report_data):
         "engine": _engine(found),
         "drive": "" if isnan(found.drive_force) else _drive(found),
         "length": f"{found.duration:.6g} s; {found.measured:.6g} s count, after {found.settle:.3g} s of settling",
-        "sensors": f"{found.rate:.6g} Hz; RMS values from {found.band[0]:g} to {found.band[1]:g} Hz",
+        "sensors": f"{_rates(found)}; RMS values from {found.band[0]:g} Hz to half the rate",
+        **found.origins,
         "bag": found.bag,
     }
     return [(name, known) for name, known in words.items() if known]
@@ -39,6 +40,12 @@ def headline(report_data):
     words += [f"law {law['law']}"] if law else []
     words += [f"seed {road['seed']}"] if "seed" in road else []
     return ", ".join([*(words or names([found.bag])), f"{found.duration:.6g} s"])
+
+
+def _rates(found):
+    if len(set(found.rates.values())) == 1:
+        return f"{found.rate:.6g} Hz"
+    return ", ".join(f"{sensor} {rate:.6g} Hz" for sensor, rate in found.rates.items())
 
 
 def _engine(found):

@@ -13,13 +13,15 @@ from . import facts, tables
 from .sections import of_one, of_several, tiles
 
 
-def write_report(report_data_list, path):
+def write_report(report_data_list, path, first=()):
     """Write the report on one bag, or the comparison of several, to a new HTML file.
 
     Parameters
     ----------
     report_data_list : list of ReportData
     path : path
+    first : sequence of Section
+        That stand before all others.
 
     Raises
     ------
@@ -30,7 +32,7 @@ def write_report(report_data_list, path):
     """
     names = facts.names([report_data.analysis.bag for report_data in report_data_list])
     single = len(report_data_list) == 1
-    sections = of_one(report_data_list[0]) if single else of_several(report_data_list, names)
+    sections = [*first, *(of_one(report_data_list[0]) if single else of_several(report_data_list, names))]
     figures = {}
     placed = [section._replace(figures=[_place(figure, figures) for figure in section.figures]) for section in sections]
     text = _environment().get_template("page.html.j2").render(

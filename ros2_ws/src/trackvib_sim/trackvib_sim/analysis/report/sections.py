@@ -3,6 +3,8 @@
 from math import isfinite
 from typing import NamedTuple
 
+from mr_mount_controller.node_base.topics import imu_topic
+
 from ..absorbed_power import RIDE_LIMIT
 from ..numbers import AXES, SENSORS
 from . import (
@@ -181,9 +183,14 @@ def tiles(analysis):
 def _about_histories(analyses, grey):
     """Return what the histories of some bags show, and what is grey there."""
     words = ["Specific force as recorded, +g along z at rest."]
-    if any(analysis.timing[f"{sensor}/imu"].samples > MOST for analysis in analyses for sensor in SENSORS):
+    if any(timing.samples > MOST for analysis in analyses for timing in _of_sensors(analysis)):
         words.append("Of long bags the least and the greatest value of each part is drawn.")
     return " ".join([*words, f"Grey: {grey}."])
+
+
+def _of_sensors(analysis):
+    """Return the `Timing` of each of the two sensors that is there."""
+    return [analysis.timing[end] for end in map(imu_topic, SENSORS) if end in analysis.timing]
 
 
 def _filled(sections):

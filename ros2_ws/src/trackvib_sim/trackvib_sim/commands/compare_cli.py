@@ -1,0 +1,70 @@
+"""The command line's `trackvib compare`."""
+
+import click
+
+from ..analysis.numbers import INTERVAL, SPEED_BAND
+from ..analysis.settling import SHORTEST_SETTLING
+from .endings import fail
+from .option_types import FiniteRange, largest_chunk_option
+from .sensor_options import sensor_options
+
+_ALIGNMENTS = ("auto", "speed", "distance", "none")
+
+
+@click.command()
+@largest_chunk_option
+@sensor_options
+@click.argument("measured", type=click.Path())
+@click.argument("simulated", type=click.Path())
+@click.option(
+    "--align",
+    type=click.Choice(_ALIGNMENTS),
+    default="auto",
+    show_default=True,
+    help="Compare what was driven at the same speed, or at the same distance along the way; auto: by speed where both "
+    "tell it (odometry or satellite fixes), else statistics of all that counts.",
+)
+@click.option(
+    "--speed-band",
+    type=FiniteRange(0.1, 1e3),
+    default=SPEED_BAND,
+    show_default=True,
+    metavar="V",
+    help="Width of the bands of speed in m/s.",
+)
+@click.option(
+    "--interval",
+    type=FiniteRange(1.0, 1e6),
+    default=INTERVAL,
+    show_default=True,
+    metavar="M",
+    help="Length of the intervals of way in m.",
+)
+@click.option(
+    "--settle",
+    type=FiniteRange(SHORTEST_SETTLING, 1e6),
+    default=None,
+    metavar="S",
+    help="Time from the start of each recording that does not count, in s.",
+)
+@click.option(
+    "--out",
+    type=click.Path(file_okay=False),
+    default=None,
+    help="Folder to make for the results.  [default: comparisons/<time>]",
+)
+def compare(measured, simulated, align, speed_band, interval, settle, out, time, unit, sources):
+    """Set a MEASURED recording beside a SIMULATED one.
+
+    Ratios of RMS, weighted and third-octave levels, of transmissibility and of lines of known cause, with their
+    confidence intervals: a table, comparison.csv and .json, and an HTML report. The options of sensors, clock and unit
+    are about the measured recording, a bag or a CSV file.
+    """
+    from ..bags.errors import BagError  # imported late: --help need not wait for it
+    from .compare import run_compare
+    from .result_folder import CommandError
+
+    try:
+        run_compare(measured, simulated, align, speed_band, interval, settle, out, time, unit, sources)
+    except (BagError, CommandError) as error:
+        fail(error)
