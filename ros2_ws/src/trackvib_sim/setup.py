@@ -18,6 +18,7 @@ setup(
             "*.pyi",
             "rui/*.pyi",
             "analysis/report/templates/*",
+            "view/page/*",
             "data/**/*.yaml",
             "data/**/*.csv",
             "data/**/*.gz",

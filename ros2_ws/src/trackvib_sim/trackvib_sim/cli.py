@@ -17,6 +17,7 @@ from .commands.option_types import INTERRUPTED, FiniteRange, known_law, vehicle_
 from .commands.replay_cli import replay
 from .commands.road_cli import road
 from .commands.study_cli import study
+from .commands.view_cli import view
 
 
 class _Verbs(click.Group):
@@ -181,6 +182,7 @@ main.add_command(mount)
 main.add_command(replay)
 main.add_command(study)
 main.add_command(road)
+main.add_command(view)
 
 if __name__ == "__main__":
     main(prog_name="trackvib")

@@ -1,0 +1,69 @@
+"""A recorded run as a recording of Rerun."""
+
+import os
+
+from mr_mount_controller.node_base.plain_text import readable
+
+from ..extras import require
+
+require("view", "rerun")
+os.environ["RERUN_ANALYTICS"] = "off"  # before Rerun is imported: it reports home otherwise
+
+import numpy as np  # noqa: E402
+import rerun as rr  # noqa: E402
+
+from ..numerics.units import NANO  # noqa: E402
+from ..road_sources.recorded import road_of_patches  # noqa: E402
+from ..scene.road_strips import BEYOND, road_strips  # noqa: E402
+from ..vehicle.system import Operation, build_system  # noqa: E402
+from .curves import log_curves, sensor_vectors  # noqa: E402
+from .layout import layout  # noqa: E402
+from .vehicle_log import VehicleLog  # noqa: E402
+
+APPLICATION = "trackvib"
+_STEP = 1e-4  # s, of a system of which only the geometry is used
+_MOST_SAMPLES = 20_000  # of the road
+
+
+def new_stream(name):
+    """Return a `rerun.RecordingStream` that is called `name`."""
+    stream = rr.RecordingStream(APPLICATION)
+    stream.send_recording_name(readable(name))
+    return stream
+
+
+def write_run(stream, recording, vehicle, motion):
+    """Write the `motion.Motion` of a vehicle and what its `Recording` tells beside it to a stream."""
+    log = VehicleLog(stream, vehicle, build_system(vehicle, Operation(0.0, 0.0, False), _STEP))
+    stream.send_blueprint(layout(log.mounts.coils > 0, bool(log.mounts.names)))
+    log.begin()
+    log.frames(motion.time, motion.poses)
+    if recording.mounts is not None:
+        row = np.clip(np.searchsorted(recording.mounts.stamp, motion.time, "right") - 1, 0, None)
+        current, force = recording.mounts.current[row], recording.mounts.force[row, :, 2]
+        log.mount_frames(motion.time, motion.poses, current, force)
+    known = {sensor.name for sensor in log.sensors}
+    for name, time, specific_force in sensor_vectors(recording, motion.time):
+        if name in known:
+            log.sensor_frames(name, time, specific_force)
+    if recording.road:
+        log.road(strips_of(recording, vehicle, motion.way))
+    log_curves(stream, recording, log.mounts.names, float(motion.time[0]) / NANO, float(motion.time[-1]) / NANO)
+
+
+def strips_of(recording, vehicle, way):
+    """Return the `Strips` of the road of a recording where a vehicle went its `Way`.
+
+    Raises
+    ------
+    ProfileError
+        The road cannot be put together.
+    """
+    road = road_of_patches(recording.road, readable(str(recording.path)))
+    begin = max(way.distance[0] - BEYOND, road.spacing * road.first)
+    end = min(way.distance[-1] + BEYOND, road.ends)
+    first, last = int(np.floor(begin / road.spacing)), int(np.ceil(end / road.spacing))
+    stride = 1 + (last - first) // _MOST_SAMPLES
+    distance = road.spacing * np.arange(first, last + 1, stride)
+    heights = road.heights(first, last + 1 - first)[:, ::stride]
+    return road_strips(distance, heights, way, vehicle.road_wheels.y)
