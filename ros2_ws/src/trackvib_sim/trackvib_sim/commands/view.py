@@ -18,8 +18,6 @@ def run_view(bag, wanted, save, gif, port, console):
     ------
     BagError, ValueError, CommandError, OSError, ImportError
         It cannot be shown; the message says why.
-    KeyboardInterrupt
-        The view was ended.
     """
     rate, start, end = wanted
     span = Span(rate or (_PICTURE_RATE if gif else _FRAME_RATE), start, inf if end is None else end)
@@ -71,5 +69,7 @@ def serve(pieces, port, title, console):
                 held.add(piece)
             held.complete()
             thread.join()
+        except KeyboardInterrupt:
+            console.print("the view has ended")
         finally:
             server.shutdown()

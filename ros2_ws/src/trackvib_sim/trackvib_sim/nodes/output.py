@@ -16,7 +16,9 @@ from trackvib_msgs.msg import DriveState, MountDescription, MountState
 from ..numerics.units import NANO
 from ..simulation.readings import Readings
 from ..simulation.simulation import POWERTRAIN
+from ..vehicle.vehicle_file import parse_vehicle
 from .messages import DriveMessage, ImuMessage, MountMessage, OdometryMessage, diagnostics, mount_description, set_stamp
+from .view_output import ViewOutput
 
 DIAGNOSTICS_RATE = 10  # Hz of simulated time
 _FLUSH = 4.0  # s for the last messages to arrive
@@ -26,6 +28,8 @@ class SimulatorOutput:
     """All publishers of the simulator node."""
 
     def __init__(self, node, simulation, vehicle_text, drive_text):
+        rate = node.settings["view_rate"]
+        self._view = ViewOutput(node, simulation, parse_vehicle(vehicle_text, "vehicle file"), rate) if rate else None
         self._simulation = simulation
         rates = simulation.settings.rates
         self._periods_an_odometry = rates.control // rates.odometry
@@ -60,6 +64,8 @@ class SimulatorOutput:
         self._description_out.publish(mount_description(self._simulation.mounting))
         self._vehicle_out.publish(String(data=self._vehicle_text))
         self._drive_file_out.publish(String(data=self._drive_text))
+        if self._view:
+            self._view.introduce()
 
     def listeners(self):
         """Return how many listen to the Imu of the chassis and of the powertrain."""
@@ -74,6 +80,8 @@ class SimulatorOutput:
         self._mount_out.publish(self._mounts.fill(stamp, simulation.sample.mounts))
         if simulation.periods % self._periods_an_odometry == 0:
             self.publish_odometry()
+        if self._view:
+            self._view.publish_in_turn()
 
     def publish_odometry(self):
         """Publish where the vehicle is, how it is driven, and the clock."""

@@ -106,16 +106,27 @@ class FrameTree:
         return np.concatenate((place[:1], on_parent[0])), np.concatenate((attitude[:1], on_parent[1]))
 
 
-def joint_coordinates(vehicle, system, state):
-    """Return positions and rates of all joints that have a coordinate, in their order [rad, m, rad/s, m/s]."""
-    rows = dict(zip((frame_name(body.name) for body in build_body_table(vehicle)), system.tree.row, strict=True))
-    sides = {tensioner_frame(side): side for side in SIDE_NAMES}
-    tree, tensioner = state.tree, state.tracks.tensioner
-    positions, rates = [], []
-    for joint in body_joints(vehicle):
-        if joint.moves:
-            on_slide = joint.child in sides
-            index = sides[joint.child] if on_slide else rows[joint.child]
-            positions.append(float((tensioner.travel if on_slide else tree.hinge)[index]))
-            rates.append(float((tensioner.rate if on_slide else tree.hinge_rate)[index]))
-    return positions, rates
+class JointReader:
+    """Reads the coordinates of a vehicle's joints from its state.
+
+    Attributes
+    ----------
+    names : list of str
+        Of the joints that have a coordinate.
+    """
+
+    def __init__(self, vehicle, system):
+        moving = [joint for joint in body_joints(vehicle) if joint.moves]
+        rows = dict(zip((frame_name(body.name) for body in build_body_table(vehicle)), system.tree.row, strict=True))
+        sides = {tensioner_frame(side): side for side in SIDE_NAMES}
+        self.names = [joint.name for joint in moving]
+        # the tensioners' coordinates behind those of all hinges
+        behind = len(system.tree.lanes) * len(system.tree.parent)
+        frames = [joint.child for joint in moving]
+        self._places = np.array([behind + sides[name] if name in sides else rows[name] for name in frames])
+
+    def read(self, state):
+        """Return positions and rates of a `vehicle.system.State`, in the order of the names [rad, m, rad/s, m/s]."""
+        tree, tensioner = state.tree, state.tracks.tensioner
+        position = np.concatenate((tree.hinge, tensioner.travel))[self._places]
+        return position, np.concatenate((tree.hinge_rate, tensioner.rate))[self._places]

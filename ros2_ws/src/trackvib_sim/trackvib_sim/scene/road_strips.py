@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..vehicle.drive.path import SAMPLES, SPACING
 from .colours import of_height
 
 BEYOND = 25.0  # m of road that are shown behind the first place and ahead of the last one
@@ -53,6 +54,13 @@ def way_of(distance, offset, place, heading):
     heading = heading[first]
     left = np.stack((-np.sin(heading), np.cos(heading)), axis=-1)
     return Way(distance, place[first] - offset[first, None] * left, heading)
+
+
+def way_held(path):
+    """Return the `Way` that a `vehicle.drive.path.Path` holds, to a little ahead of the vehicle."""
+    number = int(path.newest[0]) + np.arange(1 - SAMPLES, 1)
+    index = number & (SAMPLES - 1)
+    return Way(SPACING * number, path.place[:, index].T, path.heading[index])
 
 
 def road_strips(distance, heights, way, track_y):

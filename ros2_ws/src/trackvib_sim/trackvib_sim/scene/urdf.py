@@ -2,6 +2,7 @@
 
 from xml.etree import ElementTree
 
+import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ..rui.table import Body
@@ -54,7 +55,7 @@ def _visual(link, name, part):
     else:
         sides, middle = (shape.sides, (0.0, 0.0, 0.0)) if isinstance(shape, Box) else extents(shape)
         place, kind = turn.apply(middle) + place, ("box", {"size": _words(sides)})
-    ElementTree.SubElement(visual, "origin", xyz=_words(place), rpy=_words(turn.as_euler("xyz")))
+    ElementTree.SubElement(visual, "origin", xyz=_words(place), rpy=_words(_angles(turn)))
     ElementTree.SubElement(ElementTree.SubElement(visual, "geometry"), *kind)
     colour = "_".join(map(str, part.colour)) + ("_clear" if part.see_through else "")
     material = ElementTree.SubElement(visual, "material", name=colour)
@@ -64,7 +65,7 @@ def _visual(link, name, part):
 
 def _joint(robot, joint):
     element = ElementTree.SubElement(robot, "joint", name=joint.name, type=joint.kind)
-    angles = Rotation.from_quat(joint.attitude).as_euler("xyz")
+    angles = _angles(Rotation.from_quat(joint.attitude))
     ElementTree.SubElement(element, "origin", xyz=_words(joint.place), rpy=_words(angles))
     ElementTree.SubElement(element, "parent", link=joint.parent)
     ElementTree.SubElement(element, "child", link=joint.child)
@@ -72,6 +73,15 @@ def _joint(robot, joint):
         ElementTree.SubElement(element, "axis", xyz=_words(joint.axis))
     if joint.kind == "prismatic":
         ElementTree.SubElement(element, "limit", _UNLIMITED)
+
+
+def _angles(turn):
+    """Roll, pitch and yaw, applied in this order about fixed axes [rad]."""
+    m = turn.as_matrix()
+    pitch = np.arctan2(-m[2, 0], np.hypot(m[0, 0], m[1, 0]))
+    if abs(m[2, 0]) > 1.0 - 1e-12:  # upright: yaw turns about the same axis as roll
+        return np.arctan2(-m[1, 2], m[1, 1]), pitch, 0.0
+    return np.arctan2(m[2, 1], m[2, 2]), pitch, np.arctan2(m[1, 0], m[0, 0])
 
 
 def _words(numbers):

@@ -13,16 +13,14 @@ import numpy as np  # noqa: E402
 import rerun as rr  # noqa: E402
 
 from ..numerics.units import NANO  # noqa: E402
-from ..road_sources.recorded import road_of_patches  # noqa: E402
-from ..scene.road_strips import BEYOND, road_strips  # noqa: E402
 from ..vehicle.system import Operation, build_system  # noqa: E402
 from .curves import log_curves, sensor_vectors  # noqa: E402
 from .layout import layout  # noqa: E402
+from .road import strips_of  # noqa: E402
 from .vehicle_log import VehicleLog  # noqa: E402
 
 APPLICATION = "trackvib"
 _STEP = 1e-4  # s, of a system of which only the geometry is used
-_MOST_SAMPLES = 20_000  # of the road
 
 
 def new_stream(name):
@@ -49,21 +47,3 @@ def write_run(stream, recording, vehicle, motion):
     if recording.road:
         log.road(strips_of(recording, vehicle, motion.way))
     log_curves(stream, recording, log.mounts.names, float(motion.time[0]) / NANO, float(motion.time[-1]) / NANO)
-
-
-def strips_of(recording, vehicle, way):
-    """Return the `Strips` of the road of a recording where a vehicle went its `Way`.
-
-    Raises
-    ------
-    ProfileError
-        The road cannot be put together.
-    """
-    road = road_of_patches(recording.road, readable(str(recording.path)))
-    begin = max(way.distance[0] - BEYOND, road.spacing * road.first)
-    end = min(way.distance[-1] + BEYOND, road.ends)
-    first, last = int(np.floor(begin / road.spacing)), int(np.ceil(end / road.spacing))
-    stride = 1 + (last - first) // _MOST_SAMPLES
-    distance = road.spacing * np.arange(first, last + 1, stride)
-    heights = road.heights(first, last + 1 - first)[:, ::stride]
-    return road_strips(distance, heights, way, vehicle.road_wheels.y)

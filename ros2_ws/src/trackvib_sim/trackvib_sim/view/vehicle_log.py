@@ -60,7 +60,8 @@ class VehicleLog:
             self._send(f"{WORLD}/{name}_track", time, columns.partition([len(each) for each, _ in links]))
         # the camera goes along with the hull, level with the road
         forward = Rotation.from_quat(attitude[:, 0]).as_matrix()[:, :, 0]
-        turn = Rotation.from_euler("z", np.arctan2(forward[:, 1], forward[:, 0])).as_quat()
+        heading = np.arctan2(forward[:, 1], forward[:, 0])
+        turn = Rotation.from_euler("z", heading[:, None]).as_quat()
         ground = place[:, 0] * (1.0, 1.0, 0.0)
         self._send(FOLLOW, time, rr.Transform3D.columns(translation=ground, quaternion=turn))
 
