@@ -23,7 +23,7 @@ pytestmark = pytest.mark.system
 
 RATE = 50
 NEAR = 1e-9  # m; frames on their parents are put together again
-JAZZY = "RIHS01_e369d0f05a23ae52508854b0f6aa04437f3449d652e8cbf61d22abe603d020f5"  # of tf2_msgs/msg/TFMessage
+JAZZY = "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"  # of tf2_msgs/msg/TFMessage
 
 
 @pytest.fixture

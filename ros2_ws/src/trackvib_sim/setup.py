@@ -29,6 +29,7 @@ setup(
         # colcon builds from links to what is listed here, and finds no other pyproject.toml
         (f"share/{name}", ["package.xml", "pyproject.toml"]),
         (f"share/{name}/config", glob("config/*.yaml")),
+        (f"share/{name}/layouts", glob("layouts/*")),
         (f"share/{name}/launch", glob("launch/*.launch.py")),
     ],
 )

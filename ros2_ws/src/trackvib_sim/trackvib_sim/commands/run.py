@@ -37,6 +37,7 @@ from ..vehicle.vehicle_file import VehicleFileError, read_vehicle
 from .result_folder import CommandError, make_folder, whole_or_none, writing_to
 
 HIGHEST_DOMAIN = 232  # of ROS 2; beyond it DDS has no ports
+VIEW_RATE = 50  # Hz of simulated time
 _LOOK = 0.2  # s between looks at processes and progress
 
 
@@ -54,6 +55,7 @@ class Choices:
     seed: int
     physics_rate: int
     one_process: bool
+    view: bool = False  # in a browser
 
     @property
     def title(self):
@@ -154,6 +156,7 @@ def _run_nodes(choices, vehicle, tread, folder, console):
             "drive": "" if choices.drive is None else str(Path(choices.drive).absolute()),
             "gears": choices.gears,
             "duration": float(choices.duration),
+            "view_rate": VIEW_RATE if choices.view else 0,
         },
     }
     executables = ONE_PROCESS if choices.one_process else FOUR_PROCESSES

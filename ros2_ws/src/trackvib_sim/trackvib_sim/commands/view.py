@@ -45,31 +45,52 @@ def run_view(bag, wanted, save, gif, port, console):
         return
     binary = stream.binary_stream()
     write_run(stream, recording, vehicle, motion)
-    serve([binary.read(flush=True)], port, title, console)
+    with Served(port, title, console) as served:
+        served.show([binary.read(flush=True)])
+        served.wait()
 
 
-def serve(pieces, port, title, console):
-    """Serve the view of some pieces, which may come one after the other, until Ctrl-C. Raises as `run_view` does."""
-    from ..view.server import Pieces, ViewServer
-    from ..view.viewer_files import NoViewer
+class Served:
+    """A view that is served until the block ends, on a port of this machine; 0 for a free one.
 
-    held = Pieces()
-    try:
-        server = ViewServer(port, held)
-    except NoViewer as error:
-        raise CommandError(str(error)) from None
-    except OSError as error:
-        raise CommandError(f"port {port} cannot be served on: {error.strerror}") from None
-    with server:
-        thread = threading.Thread(target=server.serve_forever, daemon=True)
-        thread.start()
-        console.print(f"{title}: open {server.address} in a browser on this machine; Ctrl-C ends the view", soft_wrap=True)
+    Raises
+    ------
+    CommandError
+        The viewer's files cannot be had, or the port is taken.
+    """
+
+    def __init__(self, port, title, console):
+        from ..view.server import Pieces, ViewServer
+        from ..view.viewer_files import NoViewer
+
+        self._console, self._pieces = console, Pieces()
         try:
-            for piece in pieces:
-                held.add(piece)
-            held.complete()
-            thread.join()
+            self._server = ViewServer(port, self._pieces)
+        except NoViewer as error:
+            raise CommandError(str(error)) from None
+        except OSError as error:
+            raise CommandError(f"port {port} cannot be served on: {error.strerror}") from None
+        self._thread = threading.Thread(target=self._server.serve_forever, daemon=True)
+        where = f"open {self._server.address} in a browser on this machine; Ctrl-C ends the view"
+        console.print(f"{title}: {where}", soft_wrap=True)
+
+    def __enter__(self):
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_):
+        self._server.shutdown()
+        self._server.server_close()
+
+    def show(self, pieces):
+        """Show the pieces of a recording, which may come one after the other."""
+        for piece in pieces:
+            self._pieces.add(piece)
+        self._pieces.complete()
+
+    def wait(self):
+        """Wait for Ctrl-C."""
+        try:
+            self._thread.join()
         except KeyboardInterrupt:
-            console.print("the view has ended")
-        finally:
-            server.shutdown()
+            self._console.print("the view has ended")

@@ -17,11 +17,11 @@ from .painter import Painter  # noqa: E402
 from .road import strips_of  # noqa: E402
 
 MOST_FRAMES = 400
-_SIZE, _DPI = (6.4, 4.4), 100  # inches; pixels an inch
+_SIZE, _DPI = (6.4, 4.6), 100  # inches; pixels an inch
 _COLOURS = 64
 _INK = "#3c4248"
 _STEP = 1e-4  # s, of a system of which only the geometry is used
-_VIEW = ((-4.9, 4.9), (-1.75, 2.15))  # m that the camera sees at the vehicle, across and up
+_VIEW = ((-5.3, 5.3), (-1.75, 2.65))  # m that the camera sees at the vehicle, across and up
 
 
 def animated_picture(recording, vehicle, motion, path, console):
@@ -39,7 +39,7 @@ def animated_picture(recording, vehicle, motion, path, console):
     loads = _loads(recording, motion, painter.mounts)
     figure = plt.figure(figsize=_SIZE, dpi=_DPI)
     try:
-        stage = figure.add_axes((0.0, 0.27, 1.0, 0.73))
+        stage = figure.add_axes((0.0, 0.29, 1.0, 0.71))
         cursors = _curves(figure, recording, motion, painter.mounts)
         pictures = []
         frames = list(zip(motion.time, motion.poses, loads, strict=True))
@@ -52,7 +52,7 @@ def animated_picture(recording, vehicle, motion, path, console):
     finally:
         plt.close(figure)
     # one palette for all: what does not move then is not stored again
-    palette = pictures[len(pictures) // 2].quantize(_COLOURS, dither=Image.Dither.NONE)
+    palette = pictures[len(pictures) // 2].quantize(_COLOURS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
     first, *others = (each.quantize(palette=palette, dither=Image.Dither.NONE) for each in pictures)
     span = float(motion.time[-1] - motion.time[0]) / NANO / max(len(pictures) - 1, 1)
     with path.open("wb") as file:
@@ -78,7 +78,7 @@ def _draw(stage, paint, words):
     stage.axis("off")
     style = {"edgecolors": "face", "linewidths": 0.3, "antialiaseds": True}
     stage.add_collection(PolyCollection(paint.solid, facecolors=paint.colours, **style))
-    lines = LineCollection(paint.springs, colors=paint.spring_colours, linewidths=2.2)
+    lines = LineCollection(paint.springs, colors=paint.spring_colours, linewidths=3.0, zorder=5)
     stage.add_collection(lines)
     clear = [(*colour, 0.13) for colour in paint.clear_colours]
     edges = [(*0.75 * colour, 0.7) for colour in paint.clear_colours]

@@ -35,6 +35,11 @@ def log_curves(stream, recording, names, first, last):
         _curve(stream, line, mounts.stamp, 1e-3 * mounts.force[:, k, 2], first, last)
 
 
+def log_now(stream, path, time, value):
+    """Write the next point of a curve at a time (1,) [ns]."""
+    send_columns(stream, path, time, rr.Scalars.columns(scalars=np.array([value])))
+
+
 def _colour(number, count):
     return tuple(of_load(number / max(count - 1, 1)).tolist()) if count > 1 else OTHER_SENSOR
 

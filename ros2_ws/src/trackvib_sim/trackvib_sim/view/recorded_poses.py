@@ -3,18 +3,14 @@
 import numpy as np
 from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.cdr import LayoutError
-from scipy.spatial.transform import Rotation
 
 from ..bags.definitions import Definition
 from ..bags.errors import BagError
 from ..bags.raw_messages import RawMessage, raw_records
 from ..numerics.units import NANO
-from ..scene.frames import frame_name
-from ..scene.poses import Pose
+from ..scene.pose_messages import PoseAssembly
 from ..scene.road_strips import way_of
-from ..vehicle.body_tree import SIDES, build_body_table
 
-_DEEPEST = 64  # of frames below frames; a ring has no end
 _TYPES = {topics.TF: topics.TF_TYPE, topics.TRACK_LINKS: topics.TRACK_LINKS_TYPE}
 
 
@@ -26,20 +22,13 @@ def read_recorded_poses(recording, vehicle, span):
     BagError
         The bag has none, or they do not fit its vehicle.
     """
-    bodies = [frame_name(body.name) for body in build_body_table(vehicle)]
-    links = [int(count) for count in vehicle.tracks.links]
-    pending, frames, due = {}, [], span.start * NANO
+    assembly, frames, due = PoseAssembly(vehicle), [], span.start * NANO
     try:
         for topic, message in _messages(recording.path):
-            stamp, part = _transforms(message) if topic == topics.TF else _pins(message, links)
-            if not due <= stamp <= span.end * NANO:
-                continue
-            pending.setdefault(stamp, {})[topic] = part
-            if len(pending[stamp]) == len(_TYPES):
-                parts = pending.pop(stamp)
-                frames.append((stamp, Pose(*_placed(parts[topics.TF], bodies), parts[topics.TRACK_LINKS])))
-                due = stamp + (1.0 - 1e-6) * NANO / span.rate
-                pending.clear()
+            done = assembly.take_frames(message) if topic == topics.TF else assembly.take_tracks(message)
+            if done and due <= done[0] <= span.end * NANO:
+                frames.append(done)
+                due = done[0] + (1.0 - 1e-6) * NANO / span.rate
     except (LayoutError, LookupError, ValueError) as error:
         raise BagError(f"the poses in bag {str(recording.path)!r} are not those of its vehicle: {error}") from None
     if not frames:
@@ -75,46 +64,3 @@ def _messages(path):
         if key not in definitions:
             definitions[key] = Definition(record.schema.name, record.schema.encoding, record.schema.data)
         yield end, definitions[key].message(record.message.data)
-
-
-def _transforms(message):
-    """Return the stamp [ns] of a message of /tf, and by frame its parent, place (3,) and attitude (4,)."""
-    found, stamp = {}, -1
-    for each in message.transforms:
-        place, turn = each.transform.translation, each.transform.rotation
-        found[each.child_frame_id] = each.header.frame_id, (place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w)
-        stamp = each.header.stamp.sec * NANO + each.header.stamp.nanosec
-    return stamp, found
-
-
-def _placed(found, bodies):
-    """Return places (n, 3) and attitudes (n, 4) of frames from those of their parents."""
-    known = {topics.ROAD_FRAME: (np.zeros(3), Rotation.identity())}
-
-    def of(frame, depth=0):
-        if frame not in known:
-            if depth > _DEEPEST:
-                raise ValueError(f"frames more than {_DEEPEST} deep")
-            parent, place, turn = found[frame]
-            origin, axes = of(parent, depth + 1)
-            known[frame] = origin + axes.apply(place), axes * Rotation.from_quat(turn)
-        return known[frame]
-
-    placed = [of(frame) for frame in bodies]
-    place = np.array([place for place, _ in placed])
-    if not np.isfinite(place).all():
-        raise ValueError("a place is not finite")
-    return place, np.array([turn.as_quat() for _, turn in placed])
-
-
-def _pins(message, links):
-    """Return the stamp [ns] of the track links, and the pins (links, 3) of both tracks."""
-    if len(message.markers) != len(SIDES):
-        raise ValueError(f"{len(message.markers)} tracks")
-    pins = tuple(np.array([(p.x, p.y, p.z) for p in each.points[::2]]) for each in message.markers)
-    if [len(each) for each in pins] != links:
-        raise ValueError(f"tracks of {[len(each) for each in pins]} links, not {links}")
-    if not all(np.isfinite(each).all() for each in pins):
-        raise ValueError("a place is not finite")
-    stamp = message.markers[0].header.stamp
-    return stamp.sec * NANO + stamp.nanosec, pins

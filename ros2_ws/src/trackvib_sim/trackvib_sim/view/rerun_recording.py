@@ -1,13 +1,10 @@
 """A recorded run as a recording of Rerun."""
 
-import os
-
 from mr_mount_controller.node_base.plain_text import readable
 
 from ..extras import require
 
 require("view", "rerun")
-os.environ["RERUN_ANALYTICS"] = "off"  # before Rerun is imported: it reports home otherwise
 
 import numpy as np  # noqa: E402
 import rerun as rr  # noqa: E402
@@ -20,7 +17,7 @@ from .road import strips_of  # noqa: E402
 from .vehicle_log import VehicleLog  # noqa: E402
 
 APPLICATION = "trackvib"
-_STEP = 1e-4  # s, of a system of which only the geometry is used
+STEP = 1e-4  # s, of a system of which only the geometry is used
 
 
 def new_stream(name):
@@ -32,7 +29,7 @@ def new_stream(name):
 
 def write_run(stream, recording, vehicle, motion):
     """Write the `motion.Motion` of a vehicle and what its `Recording` tells beside it to a stream."""
-    log = VehicleLog(stream, vehicle, build_system(vehicle, Operation(0.0, 0.0, False), _STEP))
+    log = VehicleLog(stream, vehicle, build_system(vehicle, Operation(0.0, 0.0, False), STEP))
     stream.send_blueprint(layout(log.mounts.coils > 0, bool(log.mounts.names)))
     log.begin()
     log.frames(motion.time, motion.poses)

@@ -15,7 +15,7 @@ from ..vehicle.body_tree import SIDE_NAMES, build_body_table
 WORLD, FOLLOW = "world", "world/follow"
 TIMELINE = "time"
 _ARROW = 0.06  # m a m/s^2
-_CLEAR = 60  # of 255, opacity of what encloses others
+_CLEAR = 90  # of 255, opacity of what encloses others
 GRAVITY_UP = np.array([0.0, 0.0, 9.81])
 
 
@@ -95,6 +95,17 @@ class VehicleLog:
             vertex_colors=strips.colours.reshape(-1, 3),
         )
         self._stream.log(f"{WORLD}/road", drawn, static=True)
+
+    def road_now(self, time, corners, colours):
+        """Write the road around the vehicle at a time [ns]: corners (3 t, 3) [m] of triangles, with their colours."""
+        triangles = np.arange(len(corners)).reshape(-1, 3)
+        self._stream.set_time(TIMELINE, duration=time / NANO)
+        normals = _normals(corners, triangles)
+        drawn = rr.Mesh3D(
+            vertex_positions=corners, triangle_indices=triangles, vertex_normals=normals, vertex_colors=colours
+        )
+        self._stream.log(f"{WORLD}/road", drawn)
+        self._stream.reset_time()
 
     def _path(self, sensor):
         return f"{WORLD}/{sensor.body}/{sensor.name}_imu"

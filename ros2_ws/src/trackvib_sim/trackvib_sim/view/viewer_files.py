@@ -3,9 +3,10 @@
 import os
 import socket
 import subprocess
-import sys
 import tempfile
 import time
+from importlib.util import find_spec
+from pathlib import Path
 from urllib.error import URLError
 from urllib.request import ProxyHandler, build_opener
 
@@ -32,7 +33,7 @@ def viewer_files():
         # it keeps settings of its own, and would report home
         variables = {**os.environ, "HOME": home, "RERUN_ANALYTICS": "off", "RUST_LOG": "error", "CI": "1"}
         server = subprocess.Popen(
-            [sys.executable, "-m", "rerun", *words],
+            [_program(), *words],  # not by `python -m rerun`, which would be one process more to end
             env=variables,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
@@ -49,6 +50,13 @@ def free_port():
     """Return a port of this machine that nobody uses at the moment."""
     with socket.create_server((LOOPBACK, 0)) as taken:
         return taken.getsockname()[1]
+
+
+def _program():
+    spec = find_spec("rerun_cli")
+    if spec is None:
+        raise NoViewer("this package of rerun-sdk brings no viewer")
+    return Path(spec.origin).with_name("rerun")
 
 
 def _fetched(address, server):
