@@ -9,7 +9,7 @@ from .layout import layout
 from .rerun_recording import STEP, new_stream
 from .vehicle_log import GRAVITY_UP, VehicleLog
 
-_PIECE = 0.2  # s of wall time
+_PIECE = 0.5  # s of wall time
 
 
 def live_pieces(vehicle, title, over):
@@ -20,12 +20,14 @@ def live_pieces(vehicle, title, over):
     log.begin()
     live = LivePoses(vehicle, [sensor.name for sensor in log.sensors])
     try:
-        ended = False
+        ended, first = False, True
         while not ended:
             ended = over()  # what had come by then is still shown
             live.look(_PIECE)
-            _write(stream, log, live)
-            yield binary.read(flush=True)
+            if live.poses or first:
+                first = False
+                _write(stream, log, live)
+                yield binary.read(flush=True)
     finally:
         live.close()
 

@@ -24,6 +24,7 @@ async function start() {
     if (!answer.ok) throw new Error(`piece ${piece}: ${answer.status}`);
     viewer.send_rrd_to_channel("trackvib", new Uint8Array(await answer.arrayBuffer()));
     piece += 1;
+    document.documentElement.dataset.pieces = piece;
   }
   viewer.close_channel("trackvib");
   document.documentElement.dataset.state = "complete";
