@@ -64,7 +64,9 @@ def test_frames_of_a_run_in_lockstep(drive):
     parents = {each.child_frame_id: each.header.frame_id for each in (*frames[-1].transforms, *fixed.transforms)}
     assert parents["base_link"] == "odom" and parents["chassis_imu_link"] == "base_link"
     assert parents["powertrain_imu_link"] == "powertrain" and parents["left_idler"] == "left_tensioner"
-    assert set(parents) == {frame.name for frame in model.frames if frame.type == pinocchio.FrameType.BODY} - {"universe"}
+    assert set(parents) == {frame.name for frame in model.frames if frame.type == pinocchio.FrameType.BODY} - {
+        "universe"
+    }
     assert all(model.existJointName(name) for name in states[-1].name)
     tracks = deserialize_message(got[topics.TRACK_LINKS][-1], MarkerArray).markers
     assert [len(track.points) for track in tracks] == [240, 240]

@@ -145,7 +145,7 @@ TOPICS = (
     ),
     Topic(VEHICLE_DESCRIPTION, VEHICLE_DESCRIPTION_TYPE, "simulator", "once", "The vehicle file in use."),
     Topic(TF, TF_TYPE, "simulator", "`view_rate`", "Frames of hull, bodies and tensioners, `odom` above them all."),
-    Topic(TF_STATIC, TF_TYPE, "simulator", "once, with a `view_rate`", "Frames of the inertial sensors on their bodies."),
+    Topic(TF_STATIC, TF_TYPE, "simulator", "once, with `view_rate`", "Frames of the sensors on their bodies."),
     Topic(
         JOINT_STATES,
         JOINT_STATES_TYPE,
@@ -157,7 +157,7 @@ TOPICS = (
         ROBOT_DESCRIPTION,
         ROBOT_DESCRIPTION_TYPE,
         "simulator",
-        "once, with a `view_rate`",
+        "once, with `view_rate`",
         "The vehicle as URDF: bodies with shapes and inertia, joints, sensors.",
     ),
     Topic(
@@ -171,7 +171,7 @@ TOPICS = (
         ROAD_STRIPS,
         ROAD_STRIPS_TYPE,
         "simulator",
-        "1 Hz, with a `view_rate`",
+        "1 Hz, with `view_rate`",
         "The road around the vehicle as two strips, left and right, in `odom`.",
     ),
     Topic(

@@ -10,9 +10,7 @@ from .option_types import FiniteRange, largest_chunk_option
 @click.command()
 @largest_chunk_option
 @click.argument("bag", type=click.Path())
-@click.option(
-    "--save", type=click.Path(dir_okay=False), default=None, help="Only leave a recording of Rerun (.rrd) under this name."
-)
+@click.option("--save", type=click.Path(dir_okay=False), default=None, help="Only leave a recording of Rerun (.rrd).")
 @click.option("--gif", type=click.Path(dir_okay=False), default=None, help="Only leave an animated picture.")
 @click.option(
     "--rate",
@@ -21,10 +19,8 @@ from .option_types import FiniteRange, largest_chunk_option
     help="Frames a second of simulated time.  [default: 50, in a picture 12.5]",
 )
 @click.option("--start", type=FiniteRange(0.0, 1e6), default=0.0, show_default=True, help="Time to begin at in s.")
-@click.option("--end", type=FiniteRange(0.0, 1e6), default=None, help="Time to end at in s.  [default: that of the bag]")
-@click.option(
-    "--port", type=click.IntRange(0, 65535), default=0, help="Port on this machine to serve the view on.  [default: a free one]"
-)
+@click.option("--end", type=FiniteRange(0.0, 1e6), default=None, help="Time to end at in s.  [default: the bag's]")
+@click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port to serve on.  [default: a free one]")
 def view(bag, save, gif, rate, start, end, port):
     """Show a recorded run in a browser on this machine: the vehicle moving on its road, curves beside it.
 

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 import rclpy
 from mr_mount_controller.node_base import topics
-from mr_mount_controller.node_base.listener import whole_message
 from mr_mount_controller.node_base.cdr import LayoutError
+from mr_mount_controller.node_base.listener import whole_message
 from mr_mount_controller.node_base.qos import LATCHED_QOS, LOOP_QOS
 from rclpy.experimental import EventsExecutor
 from rclpy.signals import SignalHandlerOptions
@@ -21,11 +21,14 @@ from ..numerics.units import NANO
 from ..scene.pose_messages import PoseAssembly
 
 
-class Vector(NamedTuple):
-    """The latest acceleration of a sensor."""
+class LiveFrame(NamedTuple):
+    """A pose, with the latest of all else."""
 
     time: int  # ns
-    specific_force: np.ndarray  # (3,) m/s^2
+    pose: object  # scene.poses.Pose
+    specific_force: dict  # by sensor, (3,) m/s^2
+    current: np.ndarray  # (coils,) A
+    force: np.ndarray  # (m,) of the mounts upwards, N
 
 
 class LivePoses:
@@ -33,19 +36,16 @@ class LivePoses:
 
     Attributes
     ----------
-    poses : list
-        Stamps [ns] and `scene.poses.Pose`s that have come and were not taken away.
-    sensors : dict
-        Name -> `Vector`.
-    mounts : tuple or None
-        The latest current (coils,) [A] and force upwards (m,) [N].
+    frames : list of LiveFrame
+        That have come and were not taken away.
     roads : list
         Stamps [ns], corners (n, 3) [m] and colours (n, 3) of triangles of road that were not taken away.
     """
 
     def __init__(self, vehicle, names):
         """Listen for a vehicle (`parameters.Vehicle`) whose sensors are called `names`."""
-        self.poses, self.roads, self.sensors, self.mounts = [], [], {}, None
+        self.frames, self.roads, self._sensors, self._mounts = [], [], {}, None
+        self._names = list(names)
         self._assembly, self._context = PoseAssembly(vehicle), rclpy.Context()
         rclpy.init(context=self._context, signal_handler_options=SignalHandlerOptions.NO)
         self._node = rclpy.create_node(f"live_view_{time.monotonic_ns()}", context=self._context)
@@ -87,8 +87,8 @@ class LivePoses:
         self._keep(self._assembly.take_tracks(message))
 
     def _keep(self, done):
-        if done:
-            self.poses.append(done)
+        if done and self._mounts and len(self._sensors) == len(self._names):
+            self.frames.append(LiveFrame(*done, dict(self._sensors), *self._mounts))
 
     def _on_road(self, message):
         corners = np.array([(p.x, p.y, p.z) for p in message.points])
@@ -98,10 +98,10 @@ class LivePoses:
 
     def _on_sensor(self, name, message):
         a = message.linear_acceleration
-        self.sensors[name] = Vector(_time(message), np.array([a.x, a.y, a.z]))
+        self._sensors[name] = np.array([a.x, a.y, a.z])
 
     def _on_mounts(self, message):
-        self.mounts = np.array(message.current), np.array([force.z for force in message.force])
+        self._mounts = np.array(message.current), np.array([force.z for force in message.force])
 
 
 def _time(message):

@@ -22,7 +22,11 @@ class ViewOutput:
         self._simulation, system = simulation, simulation.system
         control = simulation.settings.rates.control
         self._periods, self._periods_a_road = control // rate, control // ROAD_RATE
-        self._poses, self._tree, self._joints = PoseReader(vehicle, system), FrameTree(vehicle), JointReader(vehicle, system)
+        self._poses, self._tree, self._joints = (
+            PoseReader(vehicle, system),
+            FrameTree(vehicle),
+            JointReader(vehicle, system),
+        )
         self._sensors, self._text = list(sensor_joints(vehicle)), urdf(vehicle, system)
         self._frames, self._states = TransformsMessage(self._tree.joints), JointStateMessage(self._joints.names)
         self._links = TrackLinksMessage(system.tracks.chain.links)

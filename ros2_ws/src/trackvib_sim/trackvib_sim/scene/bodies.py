@@ -115,8 +115,6 @@ def _spokes(radius, width):
         yield Part(Box((0.95 * radius, width, 0.12 * radius)), tuple(0.475 * radius * turn[:, 0]), TYRE, turn)
 
 
-
-
 def shoe_parts(vehicle):
     """Return the `Part`s of a track's link, from its middle: x to the next pin, y to the left.
 

@@ -4,7 +4,13 @@ import numpy as np
 
 INK, TYRE, DISC, SHOE, PIN = (60, 66, 72), (84, 92, 99), (227, 232, 235), (78, 84, 90), (150, 152, 152)
 DAMPED = (59, 110, 165)  # swing arms with a shock absorber
-SHADES = ((205, 213, 219), (184, 196, 204), (160, 174, 184), (140, 156, 167), (122, 139, 151))  # of hull, on it, on that
+SHADES = (
+    (205, 213, 219),
+    (184, 196, 204),
+    (160, 174, 184),
+    (140, 156, 167),
+    (122, 139, 151),
+)  # of hull, on it, on that
 POWERTRAIN_SHADE = (224, 140, 92)
 SENSORS = {"chassis": (59, 110, 165), "powertrain": (209, 102, 43)}
 OTHER_SENSOR = (46, 125, 90)

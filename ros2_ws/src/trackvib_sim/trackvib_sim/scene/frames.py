@@ -51,7 +51,7 @@ def tensioner_frame(side):
 
 
 def body_joints(vehicle):
-    """Return the `Joint`s of all bodies but the hull, parents before children, with the tensioners' before the idlers'."""
+    """Return the `Joint`s of all bodies but the hull, parents before children, tensioners before idlers."""
     sides = {name: side for side, name in SIDE_NAMES.items()}
     for body in build_body_table(vehicle):
         hinge = body.hinge

@@ -1,4 +1,4 @@
-"""Poses from what the simulator publishes for viewers: messages of /tf and of the track links, of ROS or out of a bag."""
+"""Poses from what the simulator publishes for viewers on /tf and as track links, from ROS or out of a bag."""
 
 import numpy as np
 from mr_mount_controller.node_base.topics import ROAD_FRAME

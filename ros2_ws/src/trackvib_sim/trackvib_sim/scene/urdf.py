@@ -51,7 +51,10 @@ def _visual(link, name, part):
     visual = ElementTree.SubElement(link, "visual", name=name)
     shape, place, turn = part.shape, part.place, Rotation.from_matrix(part.turn)
     if isinstance(shape, Cylinder):
-        turn, kind = turn * _AXIS_TO_Y, ("cylinder", {"radius": _words([shape.radius]), "length": _words([shape.width])})
+        turn, kind = (
+            turn * _AXIS_TO_Y,
+            ("cylinder", {"radius": _words([shape.radius]), "length": _words([shape.width])}),
+        )
     else:
         sides, middle = (shape.sides, (0.0, 0.0, 0.0)) if isinstance(shape, Box) else extents(shape)
         place, kind = turn.apply(middle) + place, ("box", {"size": _words(sides)})

@@ -33,7 +33,9 @@ def animated_picture(recording, vehicle, motion, path, console):
         There are more frames than fit a picture.
     """
     if len(motion.time) > MOST_FRAMES:
-        raise ValueError(f"{len(motion.time)} frames, accepted in a picture are {MOST_FRAMES}; choose --start and --end")
+        raise ValueError(
+            f"{len(motion.time)} frames, accepted in a picture are {MOST_FRAMES}; choose --start and --end"
+        )
     strips = strips_of(recording, vehicle, motion.way) if recording.road else None
     painter = Painter(vehicle, build_system(vehicle, Operation(0.0, 0.0, False), _STEP), strips)
     loads = _loads(recording, motion, painter.mounts)

@@ -24,10 +24,14 @@ def layout(has_coils, has_mounts, live=False):
         curves.append(_curves(CURRENT, "coil current, A"))
     if has_mounts:
         curves.append(_curves(FORCE, "mount force upwards, kN"))
-    spectra = [] if live else [
-        rrb.BarChartView(origin=f"{SPECTRUM}/{name}", name=f"{name}, last second, m/s²/√Hz over Hz")
-        for name in ("chassis", "powertrain")
-    ]
+    spectra = (
+        []
+        if live
+        else [
+            rrb.BarChartView(origin=f"{SPECTRUM}/{name}", name=f"{name}, last second, m/s²/√Hz over Hz")
+            for name in ("chassis", "powertrain")
+        ]
+    )
     beside = [*curves, *([rrb.Horizontal(*spectra)] if spectra else [])]
     play = {"play_state": "following"} if live else {"play_state": "playing", "loop_mode": "all"}
     return rrb.Blueprint(

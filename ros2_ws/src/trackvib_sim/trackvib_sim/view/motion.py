@@ -51,7 +51,9 @@ def read_motion(recording, span, console):
     first, last = (float(stamp) / NANO for stamp in recording.chassis.stamp[[0, -1]])
     begin, end = max(span.start, first), min(span.end, last)
     if not begin < end:
-        raise ValueError(f"nothing of the bag lies from {span.start:g} to {span.end:g} s: it tells of {first:g} to {last:g} s")
+        raise ValueError(
+            f"nothing of the bag lies from {span.start:g} to {span.end:g} s: it tells of {first:g} to {last:g} s"
+        )
     if (end - begin) * span.rate > MOST_FRAMES:
         raise ValueError(
             f"{(end - begin) * span.rate:.0f} frames are asked for, accepted are {MOST_FRAMES}; choose --start, --end "

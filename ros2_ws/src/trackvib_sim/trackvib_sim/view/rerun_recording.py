@@ -11,7 +11,7 @@ import rerun as rr  # noqa: E402
 
 from ..numerics.units import NANO  # noqa: E402
 from ..vehicle.system import Operation, build_system  # noqa: E402
-from .curves import log_curves, sensor_vectors  # noqa: E402
+from .curves import announce_curves, log_curves, sensor_vectors  # noqa: E402
 from .layout import layout  # noqa: E402
 from .road import strips_of  # noqa: E402
 from .vehicle_log import VehicleLog  # noqa: E402
@@ -38,9 +38,10 @@ def write_run(stream, recording, vehicle, motion):
         current, force = recording.mounts.current[row], recording.mounts.force[row, :, 2]
         log.mount_frames(motion.time, motion.poses, current, force)
     known = {sensor.name for sensor in log.sensors}
-    for name, time, specific_force in sensor_vectors(recording, motion.time):
+    for name, specific_force in sensor_vectors(recording, motion.time):
         if name in known:
-            log.sensor_frames(name, time, specific_force)
+            log.sensor_frames(name, motion.time, specific_force)
     if recording.road:
         log.road(strips_of(recording, vehicle, motion.way))
+    announce_curves(stream, log.mounts)
     log_curves(stream, recording, log.mounts.names, float(motion.time[0]) / NANO, float(motion.time[-1]) / NANO)

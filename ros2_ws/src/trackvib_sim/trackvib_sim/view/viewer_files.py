@@ -68,7 +68,9 @@ def _fetched(address, server):
         except (URLError, OSError) as error:
             if server.poll() is not None:
                 words = server.stderr.read().decode(errors="replace").strip().splitlines()
-                raise NoViewer(f"rerun ended with exit code {server.returncode}: {words[-1] if words else ''}") from None
+                raise NoViewer(
+                    f"rerun ended with exit code {server.returncode}: {words[-1] if words else ''}"
+                ) from None
             if time.monotonic() > end:
                 raise NoViewer(f"rerun does not hand over its viewer: {error}") from None
         time.sleep(0.05)
