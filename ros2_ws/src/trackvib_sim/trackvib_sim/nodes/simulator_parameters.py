@@ -80,8 +80,8 @@ def prepare(values):
         raise ParameterError(f"simulator: parameter 'drive': {error}") from None
     if values["view_rate"] and values["control_rate"] % values["view_rate"]:
         raise ParameterError(
-            f"simulator: control_rate {values['control_rate']} Hz and view_rate {values['view_rate']} Hz clash: the first "
-            "must be a multiple of the second"
+            f"simulator: control_rate {values['control_rate']} Hz and view_rate {values['view_rate']} Hz clash: the "
+            "first must be a multiple of the second"
         )
     return simulation_of(vehicle, values, drive), usable_current(vehicle), text, drive
 

@@ -1,4 +1,4 @@
-"""A vehicle's frames as ROS names them, joined into one tree: REP-105's `odom`, the hull as `base_link`, all else below.
+"""A vehicle's frames as ROS names them, in one tree: `odom` of REP-105, the hull as `base_link`, all else below.
 
 An idler hangs on its tensioner, a slide of its own. Behind an elastic hinge, or between mounts only, a body floats.
 """
