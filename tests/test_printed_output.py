@@ -25,7 +25,7 @@ SCATTER = {
     "./trackvib study m113": 0.3,
     "./trackvib study resistance": 0.1,
     "./trackvib exec -- python docs/examples/obstacles.py": 0.15,
-    "./trackvib exec -- sh -c": 0.1,  # which draws a run
+    "./trackvib exec -- sh docs/examples/moving_picture.sh": 0.1,
 }
 SCATTER_OF_WORK = 0.2  # of the largest number in the account
 ALIKE, ALIKE_IN_SCATTER = 2e-4, 0.1  # part of a picture's elements that may differ

@@ -16,9 +16,7 @@ from trackvib_msgs.msg import DriveState, MountDescription, MountState
 from ..numerics.units import NANO
 from ..simulation.readings import Readings
 from ..simulation.simulation import POWERTRAIN
-from ..vehicle.vehicle_file import parse_vehicle
 from .messages import DriveMessage, ImuMessage, MountMessage, OdometryMessage, diagnostics, mount_description, set_stamp
-from .view_output import ViewOutput
 
 DIAGNOSTICS_RATE = 10  # Hz of simulated time
 _FLUSH = 4.0  # s for the last messages to arrive
@@ -28,8 +26,7 @@ class SimulatorOutput:
     """All publishers of the simulator node."""
 
     def __init__(self, node, simulation, vehicle_text, drive_text):
-        rate = node.settings["view_rate"]
-        self._view = ViewOutput(node, simulation, parse_vehicle(vehicle_text, "vehicle file"), rate) if rate else None
+        self._view = _view_output(node, simulation, vehicle_text) if node.settings["view_rate"] else None
         self._simulation = simulation
         rates = simulation.settings.rates
         self._periods_an_odometry = rates.control // rates.odometry
@@ -112,3 +109,10 @@ class SimulatorOutput:
         end = time.monotonic() + _FLUSH
         for publisher in (*self._imu_out.values(), self._mount_out, self._odometry_out, self._diagnostics_out):
             publisher.wait_for_all_acked(Duration(seconds=max(end - time.monotonic(), 0.0)))
+
+
+def _view_output(node, simulation, vehicle_text):
+    from ..vehicle.vehicle_file import parse_vehicle  # imported late: most runs have no viewers
+    from .view_output import ViewOutput
+
+    return ViewOutput(node, simulation, parse_vehicle(vehicle_text, "vehicle file"), node.settings["view_rate"])

@@ -12,13 +12,14 @@ from PIL import Image  # noqa: E402
 from ..analysis.plots import COLOURS  # noqa: E402
 from ..console import followed  # noqa: E402
 from ..numerics.units import NANO  # noqa: E402
+from ..scene.colours import DAMPED, POWERTRAIN_SHADE, SENSORS, of_load  # noqa: E402
 from ..vehicle.system import Operation, build_system  # noqa: E402
 from .painter import Painter  # noqa: E402
 from .road import strips_of  # noqa: E402
 
 MOST_FRAMES = 400
 _SIZE, _DPI = (6.4, 4.6), 100  # inches; pixels an inch
-_COLOURS = 64
+_COLOURS = 96
 _INK = "#3c4248"
 _STEP = 1e-4  # s, of a system of which only the geometry is used
 _VIEW = ((-5.3, 5.3), (-1.75, 2.65))  # m that the camera sees at the vehicle, across and up
@@ -53,13 +54,20 @@ def animated_picture(recording, vehicle, motion, path, console):
             pictures.append(Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[..., :3]))
     finally:
         plt.close(figure)
-    # one palette for all: what does not move then is not stored again
-    palette = pictures[len(pictures) // 2].quantize(_COLOURS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    palette = _palette(pictures[len(pictures) // 2])
     first, *others = (each.quantize(palette=palette, dither=Image.Dither.NONE) for each in pictures)
     span = float(motion.time[-1] - motion.time[0]) / NANO / max(len(pictures) - 1, 1)
     with path.open("wb") as file:
         duration = max(20, round(1e3 * span))  # ms a frame
         first.save(file, "GIF", save_all=True, append_images=others, duration=duration, loop=0, optimize=True)
+
+
+def _palette(picture):
+    """One palette for all frames, so that what does not move is not stored again; with the colours of small things."""
+    small = np.concatenate((of_load(np.linspace(0.0, 1.0, 12)), [DAMPED, POWERTRAIN_SHADE, *SENSORS.values()]))
+    band = np.repeat(np.repeat(small[None].astype(np.uint8), picture.width // len(small) + 1, axis=1), 40, axis=0)
+    sample = np.concatenate((np.asarray(picture), band[:, : picture.width]))
+    return Image.fromarray(sample).quantize(_COLOURS, dither=Image.Dither.NONE)
 
 
 def _loads(recording, motion, mounts):
@@ -92,7 +100,7 @@ def _curves(figure, recording, motion, mounts):
     """Draw accelerations and, where there are coils, currents, else forces; returns the lines that show the time."""
     first, last = (float(each) / NANO for each in motion.time[[0, -1]])
     left, right = figure.add_axes((0.08, 0.08, 0.40, 0.17)), figure.add_axes((0.57, 0.08, 0.40, 0.17))
-    for name, sensor in (("powertrain", recording.powertrain), ("chassis", recording.chassis)):
+    for name, sensor in (("chassis", recording.chassis), ("powertrain", recording.powertrain)):
         _plot(left, sensor.stamp, sensor.specific_force[:, 2] - 9.81, first, last, COLOURS[name], name)
     left.set_title("vertical acceleration, m/s²", fontsize=7, color=_INK)
     if recording.mounts is not None:
