@@ -170,6 +170,30 @@ def test_served_on_loopback_only(served):
 
 
 @needs_viewer
+@pytest.mark.slow(reason="a whole run")
+def test_run_is_shown_while_it_goes_on(start_cli, tmp_path):
+    """Pieces of a recording come as the run goes on, and end with it; the view stays until Ctrl-C."""
+    run = start_cli("run", "--view", "--duration", 3.2, "--out", tmp_path / "run")
+    run.wait_for("Ctrl-C ends the view")
+    port = int(re.search(r"http://127\.0\.0\.1:(\d+)/", run.output)[1])
+    statuses, pieces, end = [], [], time.monotonic() + PATIENCE
+    while statuses[-1:] != [410]:
+        assert time.monotonic() < end, statuses
+        connection = HTTPConnection("127.0.0.1", port, timeout=PATIENCE)
+        connection.request("GET", f"/pieces/{len(pieces)}")
+        answer = connection.getresponse()
+        statuses.append(answer.status)
+        data = answer.read()
+        pieces += [data] if answer.status == 200 else []
+        connection.close()
+    assert len(pieces) > 2 and all(piece.startswith(b"RRF2") for piece in pieces)
+    assert sum(map(len, pieces)) > 1e5
+    run.wait_for("left in")
+    run.signal(signal.SIGINT)
+    assert run.wait() == 0 and run.output.endswith("the view has ended\n"), run.output
+
+
+@needs_viewer
 @pytest.mark.slow(reason="a browser draws without a graphics card")
 def test_page_in_a_browser(served):
     """Vehicle, road and curves are drawn; no request leaves for anywhere else, and none could."""
