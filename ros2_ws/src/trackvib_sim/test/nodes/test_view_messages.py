@@ -29,7 +29,7 @@ def some_pose(vehicle, system):
 
 @pytest.fixture(params=vehicle_names())
 def told(request):
-    """A vehicle, a pose, and the two messages that tell it; idlers turned about their axle only."""
+    """A vehicle, a pose, and the two messages that tell it."""
     vehicle, _ = read_vehicle(find_vehicle(request.param))
     system = build_system(vehicle, Operation(0.0, 0.0, False), 1e-4)
     pose, tree = some_pose(vehicle, system), FrameTree(vehicle)
