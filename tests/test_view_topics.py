@@ -42,8 +42,11 @@ def drive(start_node, observer, tmp_path):
         }
         recorder = start_node("recorder", bag=tmp_path / "bag", pattern=f"'{pattern}'")
         start_node("road_excitation")
-        start_node("controller", wait_for_recorder=True)
         simulator = start_node("simulator", view_rate=RATE, wait_for_recorder=True, **parameters)
+        # who listens has found it before the last partner lets it run
+        known = [*got, topics.DIAGNOSTICS]
+        observer.wait_until(lambda: all(observer.node.count_publishers(topic) for topic in known))
+        start_node("controller", wait_for_recorder=True)
         observer.wait_for(state="finished")
         observer.wait_until(lambda: len(got[topics.TF]) > 1 and len(got[topics.TRACK_LINKS]) > 1)
         assert simulator.wait() == 0, simulator.output
