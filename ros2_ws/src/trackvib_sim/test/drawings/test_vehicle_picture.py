@@ -11,8 +11,9 @@ from matplotlib.transforms import Bbox
 from trackvib_sim.data import find_vehicle, vehicle_names
 from trackvib_sim.drawings.assembled_vehicle import assemble_vehicle
 from trackvib_sim.drawings.labels import Labels
-from trackvib_sim.drawings.sprocket_drawing import free_entry, half_gap, tooth_profile
+from trackvib_sim.drawings.sprocket_drawing import free_entry, tooth_profile
 from trackvib_sim.drawings.vehicle_picture import vehicle_picture
+from trackvib_sim.scene.teeth import half_gap
 from trackvib_sim.vehicle.tracks.layout import TrackDoesNotFit
 from trackvib_sim.vehicle.tracks.nodes import STRIDE, NodeWorkOffset, new_node_work
 from trackvib_sim.vehicle.tracks.sprockets import add_sprocket

@@ -4,7 +4,7 @@ import os
 import re
 import signal
 import socket
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from datetime import datetime
 from math import isfinite
@@ -26,6 +26,7 @@ from ..vehicle.vehicle_file import VehicleFileError, read_vehicle
 from .result_folder import CommandError, make_folder, writing_to
 
 HIGHEST_DOMAIN = 232  # of ROS 2; beyond it DDS has no ports
+VIEW_RATE = 50  # Hz of simulated time
 _LOOK = 0.2  # s between looks at processes and progress
 
 
@@ -43,6 +44,7 @@ class Choices:
     seed: int
     physics_rate: int
     one_process: bool
+    view: bool = False  # in a browser
 
     @property
     def title(self):
@@ -53,8 +55,10 @@ class Choices:
         return f"{vehicle}{road}, law {self.law}, seed {self.seed}, {self.duration:g} s"
 
 
-def run_loop(choices, out):
+def run_loop(choices, out, viewing=nullcontext):
     """Do a run; everything it leaves lies in one new folder, `out` or one named by time, road and speed.
+
+    `viewing` makes a context manager for the time of the run, entered once its processes have been made.
 
     Raises
     ------
@@ -77,17 +81,21 @@ def run_loop(choices, out):
             f"--duration is {choices.duration:g} s, must be at least {settling + SHORTEST_MEASURING:.1f} s {how}: "
             f"{settling:.1f} s to settle and {SHORTEST_MEASURING:g} s to measure"
         )
-    executables = ONE_PROCESS if choices.one_process else FOUR_PROCESSES
-    with LoopProcesses(executables) as processes, own_domain():
-        name = f"{datetime.now():%Y%m%dT%H%M%S}_{_short(choices.road)}_{_pace(choices)}"
-        folder = make_folder(out or Path("runs") / name)
-        with writing_to(folder):
-            (folder / "log").mkdir()
-        console.print(f"closed loop: {choices.title}")
-        recommended = recommended_rate(vehicle)
-        if choices.physics_rate < recommended:
-            console.print(f"warning: --physics-rate {choices.physics_rate} is below the recommended {recommended} Hz")
-        interrupt = _run_nodes(processes, choices, path, tread, folder, console)
+    with LoopProcesses(ONE_PROCESS if choices.one_process else FOUR_PROCESSES) as processes, viewing():
+        with own_domain():
+            name = f"{datetime.now():%Y%m%dT%H%M%S}_{_short(choices.road)}_{_pace(choices)}"
+            folder = make_folder(out or Path("runs") / name)
+            with writing_to(folder):
+                (folder / "log").mkdir()
+            console.print(f"closed loop: {choices.title}")
+            if choices.physics_rate < (least := recommended_rate(vehicle)):
+                console.print(f"warning: --physics-rate {choices.physics_rate} is below the recommended {least} Hz")
+            interrupt = _run_nodes(processes, choices, path, tread, folder, console)
+        _measure(choices, settling, folder, console, interrupt)
+
+
+def _measure(choices, settling, folder, console, interrupt):
+    """Leave and print what the bag tells; raises as `run_loop`."""
     from .run_summary import evaluate  # loaded by `_follow`
 
     try:
@@ -148,6 +156,7 @@ def _run_nodes(processes, choices, vehicle, tread, folder, console):
             "drive": "" if choices.drive is None else str(Path(choices.drive).absolute()),
             "gears": choices.gears,
             "duration": float(choices.duration),
+            "view_rate": VIEW_RATE if choices.view else 0,
         },
     }
     interrupted = None

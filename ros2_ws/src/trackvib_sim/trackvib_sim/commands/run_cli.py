@@ -43,6 +43,7 @@ from .option_types import FiniteRange, law_option, vehicle_option
 @click.option(
     "--one-process", is_flag=True, help="Simulator, road and controller in one process: the same results, sooner."
 )
+@click.option("--view", is_flag=True, help="Show the run in a browser on this machine while it goes on.")
 @click.option(
     "--out",
     type=click.Path(file_okay=False),
@@ -55,6 +56,11 @@ def run(out, **choices):
     from .run import Choices, run_loop  # imported late: --help need not wait for it
 
     try:
-        run_loop(Choices(**choices), out)
+        if choices["view"]:
+            from .live_view import run_with_view
+
+            run_with_view(Choices(**choices), out)
+        else:
+            run_loop(Choices(**choices), out)
     except CommandError as error:
         fail(error)

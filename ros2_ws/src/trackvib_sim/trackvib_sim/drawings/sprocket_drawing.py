@@ -3,13 +3,13 @@
 import numpy as np
 
 from ..analysis.plots import COLOURS
+from ..scene.teeth import half_gap
 from ..vehicle.body_tree import LEFT, sprocket_name
 from .technical_drawing import INK, MARKS, PARTS, SHADE, disc, drawing
 
 MM = 1e3
 WINDOW = 105.0  # mm to either side of the middle
 WAY_IN = {"color": COLOURS["powertrain"], "linestyle": "--", "zorder": MARKS}
-_ALONG = np.linspace(0.0, 1.0, 33)  # of the tooth's height
 
 
 def tooth_profile(sprockets, angle):
@@ -33,17 +33,6 @@ def free_entry(sprockets):
     radius, _ = half_gap(sprockets)
     t = np.arccos(sprockets.pitch_radius / radius)
     return radius, np.tan(t) - t
-
-
-def half_gap(sprockets):
-    """Return radii (m,) [m] and angles (m,) [rad] of a flank and its round corner, from the middle of its gap."""
-    s = sprockets
-    radius = s.pitch_radius + _ALONG * (s.tip_radius - s.pitch_radius)
-    to_tip = np.maximum(s.corner - (s.tip_radius - radius), s.sine * s.corner)  # from the corner's centre
-    # on the circle of the corner, in the skew axes of the normals of tip and flank
-    to_flank = s.sine * to_tip + s.cosine * np.sqrt(s.corner**2 - to_tip**2)
-    way = s.backlash + s.slope * (radius - s.pitch_radius) + (s.corner - to_flank) / s.cosine
-    return radius, way / radius
 
 
 def _places(radius, angle):

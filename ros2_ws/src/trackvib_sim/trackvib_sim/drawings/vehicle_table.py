@@ -4,12 +4,13 @@ import re
 from math import pi
 from typing import NamedTuple
 
+from ..scene.teeth import half_gap
 from ..vehicle.mount_loads import loads_at_rest
 from ..vehicle.step_size import fastest_contact, longest_step, recommended_rate
 from ..vehicle.tracks.layout import sink
 from ..yaml_text import load
 from .assembled_vehicle import assemble_vehicle
-from .sprocket_drawing import free_entry, half_gap
+from .sprocket_drawing import free_entry
 from .standing_vehicle import standing_loads
 
 SPEEDS = (5.0, 10.0, 20.0)  # m/s, those of [Tao2025]

@@ -4,6 +4,7 @@ import numpy as np
 from matplotlib.markers import CARETDOWN, CARETUP
 
 from ..analysis.plots import COLOURS
+from ..scene.bodies import even_density_sides
 from ..vehicle.body_tree import (
     HULL,
     POWERTRAIN,
@@ -55,9 +56,7 @@ def boxes(plot, assembled, view, names=None):
     for name, solid in sprung_bodies(assembled.vehicle).items():
         if names is not None and name not in names:
             continue
-        inertia = np.array(solid.inertia)
-        # I_x = m (l_y^2 + l_z^2) / 12, solved for the sides; the small products of inertia are left out
-        sides = np.abs(view) @ np.sqrt(np.maximum(6.0 * (inertia.sum() - 2.0 * inertia) / solid.mass, 0.0))
+        sides = np.abs(view) @ even_density_sides(solid)
         centre = view @ (assembled.hub[name] + solid.centre)
         edge = COLOURS["powertrain"] if name == POWERTRAIN else FAINT
         style = {"linestyle": "--", "facecolor": _shade(assembled.vehicle, name), "edgecolor": edge, "zorder": BACK}

@@ -26,6 +26,7 @@ class SimulatorOutput:
     """All publishers of the simulator node."""
 
     def __init__(self, node, simulation, vehicle_text, drive_text):
+        self._view = _view_output(node, simulation, vehicle_text) if node.settings["view_rate"] else None
         self._simulation = simulation
         rates = simulation.settings.rates
         self._periods_an_odometry = rates.control // rates.odometry
@@ -60,6 +61,8 @@ class SimulatorOutput:
         self._description_out.publish(mount_description(self._simulation.mounting))
         self._vehicle_out.publish(String(data=self._vehicle_text))
         self._drive_file_out.publish(String(data=self._drive_text))
+        if self._view:
+            self._view.introduce()
 
     @property
     def loop_publishers(self):
@@ -79,6 +82,8 @@ class SimulatorOutput:
         self._mount_out.publish(self._mounts.fill(stamp, simulation.sample.mounts))
         if simulation.periods % self._periods_an_odometry == 0:
             self.publish_odometry()
+        if self._view:
+            self._view.publish_in_turn()
 
     def publish_odometry(self):
         """Publish where the vehicle is, how it is driven, and the clock."""
@@ -109,3 +114,10 @@ class SimulatorOutput:
         end = time.monotonic() + _FLUSH
         for publisher in (*self._imu_out.values(), self._mount_out, self._odometry_out, self._diagnostics_out):
             publisher.wait_for_all_acked(Duration(seconds=max(end - time.monotonic(), 0.0)))
+
+
+def _view_output(node, simulation, vehicle_text):
+    from ..vehicle.vehicle_file import parse_vehicle  # imported late: most runs have no viewers
+    from .view_output import ViewOutput
+
+    return ViewOutput(node, simulation, parse_vehicle(vehicle_text, "vehicle file"), node.settings["view_rate"])

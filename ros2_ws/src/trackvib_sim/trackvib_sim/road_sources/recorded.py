@@ -44,14 +44,25 @@ def read_recorded_road(bag):
     ProfileError
         The bag cannot be read, its patches cannot be used, or leave a gap or differ in their spacing.
     """
-    name = readable(str(bag))
     try:
         patches = read_recording(bag).road
-        store = RoadStore()
-        for patch in patches:
-            store.add(*patch)
     except BagError as error:
         raise ProfileError(str(error)) from None
+    return road_of_patches(patches, readable(str(bag)))
+
+
+def road_of_patches(patches, name):
+    """Return the `RecordedRoad` of patches (start, spacing, left, right) [m] from what is called `name`.
+
+    Raises
+    ------
+    ProfileError
+        They cannot be used, or leave a gap or differ in their spacing.
+    """
+    store = RoadStore()
+    try:
+        for patch in patches:
+            store.add(*patch)
     except ValueError as error:
         raise ProfileError(f"{name}: a patch of road whose {error}") from None
     if not patches:

@@ -113,6 +113,11 @@ class Simulation:
         """Return whether the next period can be done with the road at hand."""
         return self._road_around(1) is not None
 
+    @property
+    def road_at_hand(self):
+        """The stretch (`road.store.Road`) on which the last period was done, None before the first one."""
+        return self._held
+
     def command(self, speed: float, yaw_rate: float):
         """Want another speed [m/s] and yaw rate [rad/s, to the left] from the next period on, whatever the schedule.
 

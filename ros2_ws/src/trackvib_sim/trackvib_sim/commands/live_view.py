@@ -1,0 +1,39 @@
+"""`trackvib run --view`: the run in a browser while it goes on."""
+
+import threading
+from contextlib import contextmanager
+
+from ..console import Terminal
+from ..data import find_vehicle
+from ..vehicle.vehicle_file import VehicleFileError, read_vehicle
+from .result_folder import CommandError
+from .run import run_loop
+from .view import Served
+
+
+def run_with_view(choices, out):
+    """Do a run as `run.run_loop` does, and show it; its view stays until Ctrl-C. Raises as that does."""
+    try:
+        vehicle, _ = read_vehicle(find_vehicle(choices.vehicle).absolute())
+    except VehicleFileError as error:
+        raise CommandError(str(error)) from None
+    run_loop(choices, out, lambda: _live_view(vehicle, choices.title, Terminal()))
+
+
+@contextmanager
+def _live_view(vehicle, title, console):
+    """Serve the view of a run of a vehicle (`parameters.Vehicle`) that is done within the block, until Ctrl-C."""
+    try:
+        from ..view.live import live_pieces
+    except ImportError as error:
+        raise CommandError(str(error)) from None
+    over = threading.Event()
+    with Served(0, title, console) as served:
+        thread = threading.Thread(target=served.show, args=(live_pieces(vehicle, title, over.is_set),), daemon=True)
+        thread.start()
+        try:
+            yield
+        finally:
+            over.set()
+            thread.join()
+        served.wait()
