@@ -138,7 +138,8 @@ def _between(recording, begin, last, other):
         kept = (columns[0] > begin) & (columns[0] <= last)
         if others is not None:
             kept &= np.isin(columns[0], others.stamp)
-        return type(columns)(*(column[kept] for column in columns)) if kept.any() else None
+        parts = (None if column is None else column[kept] for column in columns)
+        return type(columns)(*parts) if kept.any() else None
 
     cut = {sensor: cut_out(getattr(recording, sensor), getattr(other, sensor)) for sensor in SENSORS}
     cut |= {part: cut_out(getattr(recording, part)) for part in ("mounts", "answers", "odometry", "drive")}
