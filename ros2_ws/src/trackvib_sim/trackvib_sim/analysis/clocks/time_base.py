@@ -6,10 +6,11 @@ from mr_mount_controller.node_base import topics
 from ...numerics.units import NANO
 from ..measured import sound_samples
 from ..numbers import SENSORS
-from ..stamps import period_of, timing
+from ..stamps import period_of
 from .mending import NoClock, is_even, mend
 from .notes import clock_notes
 from .resampling import resampled
+from .wander import at_even_instants, edges_of
 
 SLIP = 0.05  # periods, by which one sensor may get ahead of the other without being resampled
 PARTS = 50  # of a recording, in which stamps are compared with the recorder's times
@@ -70,7 +71,8 @@ def _mended(inertial, end):
             f"{end}: samples that are no numbers: {len(sound) - sound.sum()}; each ends a stretch as a gap does"
         )
         found = found.at(sound)
-    return found, clock, notes
+    found, words = at_even_instants(found, end)
+    return found, clock, notes + words
 
 
 def _way_out(inertial):
@@ -137,7 +139,7 @@ def _at_the_same_instants(chassis, powertrain):
     if abs(other / period - 1.0) > ALIKE:
         return powertrain, []
     stamps, slips = [], []
-    edges = _edges(powertrain.stamp)
+    edges = edges_of(powertrain.stamp)
     for begin, end in zip(edges[:-1], edges[1:], strict=True):
         own = powertrain.stamp[begin:end]
         first, last = np.searchsorted(chassis.stamp, (own[0], own[-1] + 1))
@@ -164,8 +166,3 @@ def _at_the_same_instants(chassis, powertrain):
         f"{max(slips):.3g} samples): resampled, band-limited, to the instants of chassis/imu"
     )
     return type(powertrain)(stamp, np.concatenate(force), None), [note]
-
-
-def _edges(stamp):
-    """Return first indices of the stretches of even stamps, and their number."""
-    return [0, *timing(stamp, 0)[1].tolist(), len(stamp)]
