@@ -130,6 +130,8 @@ def _steps(ahead, around, sharp):
         if not number:
             continue
         inside = np.diff(ahead[before : after + 1])
+        if sharp and (inside * np.sign(number)).max() < 0.5:  # many small steps are a rate that wanders
+            continue
         single = np.round(inside).astype(np.int64)
         if sharp and single[single > 0].sum() == number > 0:
             where = np.flatnonzero(single > 0)
