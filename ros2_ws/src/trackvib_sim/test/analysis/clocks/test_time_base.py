@@ -181,7 +181,9 @@ def test_stamps_that_do_not_coincide(offset):
 def wandering(seconds, scatter=0.0, rate=400.0):
     """Return true times of a loop that takes as long as it takes: its period goes up and down by 4 % and scatters."""
     random, count = np.random.default_rng(9), int(seconds * rate)
-    period = 1.0 + 0.04 * np.sin(2.0 * np.pi * np.arange(count) / rate / 25.0) + random.normal(scale=scatter, size=count)
+    period = (
+        1.0 + 0.04 * np.sin(2.0 * np.pi * np.arange(count) / rate / 25.0) + random.normal(scale=scatter, size=count)
+    )
     return np.cumsum(period) / rate
 
 
@@ -260,6 +262,22 @@ def test_parts_in_any_order_and_copies():
         found = analyse(both(time, logged=time - 0.01, kept=kept) if note else both(time, kept=kept))
         require_right(found, 1000.0)
         assert found.measured == 8.0 and (not note or says(found, note))
+
+
+@pytest.mark.property
+@LOGGED
+@pytest.mark.parametrize("slower", [1.0, 1.01])
+def test_one_sensor_alone_has_its_own_rate(slower, logged):
+    """The other one tells no number: the first is what it is beside a sound one, and the other is not brought to it."""
+    time, other = times(50.0, 30.0), times(50.0 / slower, 30.0)
+    chassis = sensor(time, told=jittered(time, 50.0, 0.1), logged=logged)
+    nothing = sensor(other, told=jittered(other, 50.0, 0.1), logged=logged)
+    nothing = nothing._replace(specific_force=np.full_like(nothing.specific_force, np.nan))
+    found = analyse(recorded(chassis, nothing))
+    assert found.rate == pytest.approx(50.0, rel=1e-4) and found.measured == pytest.approx(28.0, abs=0.1)
+    assert found.sensors["chassis"]["x"].rms_raw == pytest.approx(0.5 / np.sqrt(2.0), rel=0.01)
+    assert np.isnan(found.sensors["powertrain"]["z"].rms)
+    assert not says(found, "resampled") and not says(found, "gaps")
 
 
 @pytest.mark.property

@@ -62,8 +62,13 @@ def line_through(time, index, period, seconds, grain):
 
 def _through(number, off, index):
     """Return the way through medians by their numbers, straight on to the first and last sample."""
-    ends = [off[k] + (off[m] - off[k]) / (number[m] - number[k]) * (index[k] - number[k]) for k, m in ((0, 1), (-1, -2))]
-    return {"number": np.concatenate(([index[0]], number, [index[-1]])), "off": np.concatenate((ends[:1], off, ends[1:]))}
+    ends = [
+        off[k] + (off[m] - off[k]) / (number[m] - number[k]) * (index[k] - number[k]) for k, m in ((0, 1), (-1, -2))
+    ]
+    return {
+        "number": np.concatenate(([index[0]], number, [index[-1]])),
+        "off": np.concatenate((ends[:1], off, ends[1:])),
+    }
 
 
 def _medians(index, values, length):

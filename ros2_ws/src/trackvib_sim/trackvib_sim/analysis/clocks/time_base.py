@@ -41,11 +41,17 @@ def on_one_time_base(recording):
         if clock is not None:
             clocks[end] = clock
     chassis, powertrain = (found.pop(sensor) for sensor in SENSORS)
-    if not any(np.isfinite(each.specific_force[0]).all() for each in (chassis, powertrain)):
+    measured = [bool(np.isfinite(each.specific_force[0]).all()) for each in (chassis, powertrain)]
+    if not any(measured):
         raise NoClock(f"neither {' nor '.join(_ENDS.values())} measured an acceleration: {'; '.join(notes)}")
-    for step in (_by_one_clock, _at_the_same_instants):
-        powertrain, words = step(chassis, powertrain)
-        notes += words
+    if all(measured):
+        for step in (_by_one_clock, _at_the_same_instants):
+            powertrain, words = step(chassis, powertrain)
+            notes += words
+    elif measured[0]:
+        powertrain = _nothing_beside(chassis)
+    else:
+        chassis = _nothing_beside(powertrain)
     return recording._replace(chassis=chassis, powertrain=powertrain, sensors=found, notes=tuple(notes), clocks=clocks)
 
 
@@ -64,15 +70,20 @@ def _mended(inertial, end):
     notes = [] if clock is None else clock_notes(end, clock)
     if not sound.any():
         why = "its covariance says so" if denied else "no sample is a number"
-        force = np.broadcast_to(np.nan, found.specific_force.shape)
-        return found._replace(specific_force=force), clock, [*notes, f"{end}: acceleration was not measured, {why}"]
-    if not sound.all():
+        found = found._replace(specific_force=np.broadcast_to(np.nan, found.specific_force.shape))
+        notes.append(f"{end}: acceleration was not measured, {why}")
+    elif not sound.all():
         notes.append(
             f"{end}: samples that are no numbers: {len(sound) - sound.sum()}; each ends a stretch as a gap does"
         )
         found = found.at(sound)
     found, words = at_even_instants(found, end)
     return found, clock, notes + words
+
+
+def _nothing_beside(inertial):
+    """Return what a sensor that measured nothing has at the instants of the other: it has none of its own to keep."""
+    return inertial._replace(specific_force=np.broadcast_to(np.nan, inertial.specific_force.shape))
 
 
 def _way_out(inertial):

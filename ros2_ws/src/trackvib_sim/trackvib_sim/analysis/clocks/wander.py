@@ -3,7 +3,6 @@
 import numpy as np
 
 from ...numerics.units import NANO
-from ...bags.recording import Inertial
 from ..stamps import BLOCK, blocks, period_of, timing
 from .resampling import resampled
 
@@ -12,7 +11,7 @@ SPAN = 100  # samples, over which a rate is told
 
 
 def at_even_instants(inertial, end):
-    """Return an `Inertial` at even instants if its rate wanders, and notes.
+    """Return a sensor's `Inertial` at even instants if its rate wanders, and notes; of these forces only.
 
     Parameters
     ----------
@@ -33,9 +32,13 @@ def at_even_instants(inertial, end):
     period = sum(int(stamp[part.stop - 1] - stamp[part.start]) for part in parts) / steps
     if off <= MOST * period:
         return inertial, []
-    found = [_resampled(inertial.at(part), int(stamp[0]), period) for part in parts]
-    columns = (
-        None if column[0] is None else np.concatenate(column) for column in zip(*found, strict=True)
+    stamps, forces, logged = zip(*(_resampled(inertial.at(part), int(stamp[0]), period) for part in parts), strict=True)
+    found = inertial._replace(
+        stamp=np.concatenate(stamps),
+        specific_force=np.concatenate(forces),
+        angular_velocity=None,
+        logged=None if inertial.logged is None else np.concatenate(logged),
+        covariance=None,
     )
     lowest, highest = _rates(stamp, parts)
     note = (
@@ -43,7 +46,7 @@ def at_even_instants(inertial, end):
         f"{off / NANO:.3g} s, {off / period:.3g} periods: resampled, band-limited, to even instants at "
         f"{NANO / period:.6g} Hz"
     )
-    return Inertial(*columns), [note]
+    return found, [note]
 
 
 def edges_of(stamp):
@@ -68,14 +71,11 @@ def _rates(stamp, parts):
 
 
 def _resampled(inertial, origin, period):
-    """Return the columns of an `Inertial` at whole numbers of periods [ns] after an origin."""
-    stamp = inertial.stamp - origin
+    """Return stamps, specific forces and times of recording at whole numbers of periods [ns] after an origin."""
+    stamp, samples = inertial.stamp - origin, np.arange(len(inertial.stamp))
     number = np.arange(np.ceil(stamp[0] / period), np.floor(stamp[-1] / period) + 1)
-    place = np.interp(period * number, stamp, np.arange(len(stamp)))
-    logged = None if inertial.logged is None else np.interp(place, np.arange(len(stamp)), inertial.logged - origin)
-    return Inertial(
-        origin + np.round(period * number).astype(np.int64),
-        resampled(inertial.specific_force, place),
-        resampled(inertial.angular_velocity, place),
-        None if logged is None else origin + np.round(logged).astype(np.int64),
-    )
+    place = np.interp(period * number, stamp, samples)
+    logged = None
+    if inertial.logged is not None:
+        logged = origin + np.round(np.interp(place, samples, inertial.logged - origin)).astype(np.int64)
+    return origin + np.round(period * number).astype(np.int64), resampled(inertial.specific_force, place), logged
