@@ -142,7 +142,7 @@ def _answers(recording):
 
 @contextmanager
 def _controller(stock, law, rate, folder):
-    """Run the stock controller, unless the user does; gives what raises `CommandError` if it has ended, and its words."""
+    """Run the stock controller, unless the user does; gives what raises `CommandError` if it ended, and its words."""
     if law is None:
         yield lambda: None, lambda: ""
         return

@@ -180,10 +180,8 @@ def test_stamps_that_do_not_coincide(offset):
 
 def wandering(seconds, scatter=0.0, rate=400.0):
     """Return true times of a loop that takes as long as it takes: its period goes up and down by 4 % and scatters."""
-    random, count = np.random.default_rng(9), int(seconds * rate)
-    period = (
-        1.0 + 0.04 * np.sin(2.0 * np.pi * np.arange(count) / rate / 25.0) + random.normal(scale=scatter, size=count)
-    )
+    random, number = np.random.default_rng(9), np.arange(int(seconds * rate))
+    period = 1.0 + 0.04 * np.sin(2.0 * np.pi * number / rate / 25.0) + random.normal(scale=scatter, size=len(number))
     return np.cumsum(period) / rate
 
 

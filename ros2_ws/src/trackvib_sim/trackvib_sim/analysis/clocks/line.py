@@ -61,13 +61,13 @@ def line_through(time, index, period, seconds, grain):
 
 
 def _through(number, off, index):
-    """Return the way through medians by their numbers, straight on to the first and last sample."""
-    ends = [
-        off[k] + (off[m] - off[k]) / (number[m] - number[k]) * (index[k] - number[k]) for k, m in ((0, 1), (-1, -2))
-    ]
+    """Return the columns of a `Line` through medians, straight on to the first and last sample."""
+    slope = np.diff(off)[[0, -1]] / np.diff(number)[[0, -1]]
+    ends = index[[0, -1]]
+    outer = off[[0, -1]] + slope * (ends - number[[0, -1]])
     return {
-        "number": np.concatenate(([index[0]], number, [index[-1]])),
-        "off": np.concatenate((ends[:1], off, ends[1:])),
+        "number": np.concatenate((ends[:1], number, ends[1:])),
+        "off": np.concatenate((outer[:1], off, outer[1:])),
     }
 
 
