@@ -74,7 +74,7 @@ def test_columns_and_units_are_named(file, text, left, right):
         ("distance_m,height_m\n-1e308,0\n1e308,0\n", "a gap of inf m"),
         ("distance_m,height_m\n0,0\n1e-9,0\n", "are 1 samples at the least distance between them"),
         ("distance_m,height_m\n0,0\n0.1,\0\n", "line 3|no CSV file"),
-        ("distance_m;height_m\n0,0;0,0\n", "line 2: '0,0;0,0', accepted are 2 numbers"),
+        ("distance_m;height_m\n0,0;0;0\n", "line 2: '0,0;0;0', accepted are 2 numbers"),
         (GOOD.replace("0.01", "10").replace("0.02", "20"), "left rises by 10 m .* is the unit right"),
         ("distance_m,height_m\n" + "0" * 20_000, "line 2: more than 10000 characters"),
         (GOOD + "\x1b[31m,0,0\n", r"line 5: '.*, accepted are 3 numbers"),

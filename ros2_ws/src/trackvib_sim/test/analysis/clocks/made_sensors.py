@@ -60,7 +60,7 @@ def sensor(time, gain=1.0, told=None, logged=True, highest=0.0, kept=slice(None)
     recorded = stamp if logged is False else nanoseconds(time if logged is True else logged)
     zero = np.zeros(len(time))
     made = Inertial(stamp, force, np.zeros((len(time), 3)), recorded, zero)._replace(**columns)
-    return Inertial(*(column[kept] for column in made))
+    return made.at(kept)
 
 
 def recorded(chassis, powertrain):

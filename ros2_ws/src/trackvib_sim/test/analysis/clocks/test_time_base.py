@@ -178,6 +178,45 @@ def test_stamps_that_do_not_coincide(offset):
     assert says(found, "recorded at the same time: taken back") == (offset > 1.0)
 
 
+def wandering(seconds, scatter=0.0, rate=400.0):
+    """Return true times of a loop that takes as long as it takes: its period goes up and down by 4 % and scatters."""
+    random, number = np.random.default_rng(9), np.arange(int(seconds * rate))
+    period = 1.0 + 0.04 * np.sin(2.0 * np.pi * number / rate / 25.0) + random.normal(scale=scatter, size=len(number))
+    return np.cumsum(period) / rate
+
+
+@pytest.mark.analytic
+@LOGGED
+@pytest.mark.parametrize("coarse", [False, True])
+def test_a_rate_that_wanders_smoothly(coarse, logged):
+    """Nothing is taken for lost, lines do not smear, and how far the stamps leave even ones is told."""
+    time = wandering(50.0)
+    found = analyse(both(time, np.floor(time / MS) * MS if coarse else time, logged=logged, highest=0.42 * 400.0))
+    require_right(found, 400.0, tones=True)
+    assert found.measured == pytest.approx(48.0, abs=0.1)
+    assert found.loop["lost_chassis"] == found.loop["lost_powertrain"] == 0
+    for axis, tone in (("x", 8.0), ("z", 20.0)):
+        psd = found.spectra.psd["chassis"][:, "xyz".index(axis)]
+        near = np.abs(found.spectra.frequency - tone) <= 2.0
+        level = {8.0: 0.5, 20.0: 2.0}[tone] / np.sqrt(2.0)
+        assert np.sqrt(psd[near].sum()) == pytest.approx(level, rel=0.02)
+    assert says(found, "chassis/imu: its rate wanders from 38", "to 41", "resampled, band-limited, to even instants")
+
+
+@pytest.mark.property
+@LOGGED
+@pytest.mark.parametrize("scatter", [0.02, 0.05, 0.15])
+def test_periods_that_scatter_are_no_loss(scatter, logged):
+    """Each sample is taken when its loop comes round, and stamped then: delays stay, but are no whole samples."""
+    time = wandering(50.0, scatter)
+    found = analyse(both(time, logged=logged))
+    require_right(found, (len(time) - 1) / (time[-1] - time[0]))
+    assert found.clocks["chassis/imu"].lost == 0 and found.loop["lost_chassis"] == 0
+    kept = np.setdiff1d(np.arange(len(time)), [4000, 4001, 9000])
+    if scatter < 0.1:
+        assert analyse(both(time, logged=logged, kept=kept)).clocks["chassis/imu"].lost == 3
+
+
 @pytest.mark.property
 @LOGGED
 @pytest.mark.parametrize("step", [-2.0, -60.0, 7200.0, 0.1, -0.1])
@@ -221,6 +260,22 @@ def test_parts_in_any_order_and_copies():
         found = analyse(both(time, logged=time - 0.01, kept=kept) if note else both(time, kept=kept))
         require_right(found, 1000.0)
         assert found.measured == 8.0 and (not note or says(found, note))
+
+
+@pytest.mark.property
+@LOGGED
+@pytest.mark.parametrize("slower", [1.0, 1.01])
+def test_one_sensor_alone_has_its_own_rate(slower, logged):
+    """The other one tells no number: the first is what it is beside a sound one, and the other is not brought to it."""
+    time, other = times(50.0, 30.0), times(50.0 / slower, 30.0)
+    chassis = sensor(time, told=jittered(time, 50.0, 0.1), logged=logged)
+    nothing = sensor(other, told=jittered(other, 50.0, 0.1), logged=logged)
+    nothing = nothing._replace(specific_force=np.full_like(nothing.specific_force, np.nan))
+    found = analyse(recorded(chassis, nothing))
+    assert found.rate == pytest.approx(50.0, rel=1e-4) and found.measured == pytest.approx(28.0, abs=0.1)
+    assert found.sensors["chassis"]["x"].rms_raw == pytest.approx(0.5 / np.sqrt(2.0), rel=0.01)
+    assert np.isnan(found.sensors["powertrain"]["z"].rms)
+    assert not says(found, "resampled") and not says(found, "gaps")
 
 
 @pytest.mark.property

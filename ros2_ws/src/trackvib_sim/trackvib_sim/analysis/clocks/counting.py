@@ -1,7 +1,8 @@
 """Which sample is which: lost samples told from jitter, bursts and coarse stamps.
 
 Where samples are lost, the stamps run ahead of the count for good; where stamps are late, early, coarse or repeated,
-they come back. So a step is what medians over many samples before and after it differ by.
+they come back. So a step is what medians over many samples before and after it differ by. A rate that drifts is
+neither: stamps are compared with a count whose period follows it.
 """
 
 from typing import NamedTuple
@@ -17,6 +18,8 @@ LEAST = 0.6  # of a period, by which medians must differ
 CLOSE = 0.25  # of a period, by which that may differ from a whole number
 BEATS = 8  # regular places at which coarse stamps make a longer or shorter step
 BLURRED = 20.0  # periods, by which stamps may scatter
+FOLLOWED = 64  # samples over which the period may be another, at least
+SURE = 5.0  # times what levels differ by anywhere, beyond which stamps that wander at random make a step
 
 
 class Count(NamedTuple):
@@ -37,13 +40,12 @@ def count_samples(time):
     period, sharp, beat = _period(time, step)
     if not period > 0.0:
         return None
-    ahead = (time - time[0]) / period - np.arange(len(time))
-    scatter, around = _scatter(ahead), AROUND
+    scatter, around = _scatter((time - time[0]) / period - np.arange(len(time))), AROUND
     if not sharp:
         if scatter > BLURRED:
             return None
         around = int(np.clip(max((1.25 * scatter / NOISE) ** 2, 3.0 * beat), 16, MOST_AROUND))
-    places, steps = _steps(ahead, around, sharp)
+    places, steps = _steps((time - _followed(time, period, max(FOLLOWED, around))) / period, around, sharp)
     lost = steps > 0
     before, unsure = np.zeros(len(time), np.int64), np.zeros(len(time), bool)
     np.add.at(before, places[lost], steps[lost])
@@ -67,6 +69,16 @@ def _mean_step(time):
     many = int(np.clip(len(time) // 8, 1, 256))
     middles = time[: len(time) // many * many].reshape(-1, many).mean(axis=1)
     return float(np.median(np.diff(middles))) / many
+
+
+def _followed(time, period, width):
+    """Return even times (k,) whose period drifts as that of the times does: the median of mean steps round about."""
+    middles = time[: len(time) // width * width].reshape(-1, width).mean(axis=1)
+    if len(middles) < 3:
+        return time[0] + period * np.arange(len(time))
+    mean = ndimage.median_filter(np.diff(middles) / width, 5, mode="nearest")  # a lost sample is in two of them
+    step = np.interp(np.arange(len(time) - 1), width * (1.0 + np.arange(len(mean))), mean)
+    return time[0] + np.append(0.0, np.cumsum(step))
 
 
 def _beat(step, usual, regular):
@@ -109,7 +121,8 @@ def _steps(ahead, around, sharp):
     apart = around + 1
     change = np.zeros(len(ahead))
     change[apart:-apart] = level[2 * apart :] - level[: -2 * apart]
-    regions, count = ndimage.label(np.abs(change) > LEAST)
+    usual = 1.4826 * float(np.median(np.abs(change)))
+    regions, count = ndimage.label(np.abs(change) > max(LEAST, SURE * usual))
     places, steps = [], []
     for (region,) in ndimage.find_objects(regions) if count else ():
         before, after = max(region.start - apart, 0), min(region.stop + apart, len(ahead)) - 1
@@ -117,6 +130,8 @@ def _steps(ahead, around, sharp):
         if not number:
             continue
         inside = np.diff(ahead[before : after + 1])
+        if sharp and (inside * np.sign(number)).max() < 0.5:  # many small steps are a rate that wanders
+            continue
         single = np.round(inside).astype(np.int64)
         if sharp and single[single > 0].sum() == number > 0:
             where = np.flatnonzero(single > 0)

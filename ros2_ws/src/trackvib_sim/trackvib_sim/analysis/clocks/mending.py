@@ -127,7 +127,7 @@ class _Part(NamedTuple):
     stamp: np.ndarray  # (k,) ns
     kept: np.ndarray  # (k,) bool
     order: np.ndarray | None  # (k,) in which they are to stand, if not as they do
-    period: float  # ns
+    period: float  # ns, on the whole
     rest: np.ndarray  # (k,) by which the stamps are off the line, ns
     lost: int
     by_log: bool  # whether they were counted by the recorder's clock
@@ -156,7 +156,8 @@ def _mend_part(stamp, logged, name):
     if order is not None:
         rest = time[order] - line.at(index)
     mended = stamp[0] + np.round(line.at(index)).astype(np.int64)
-    return _Part(mended, ~found.unsure, order, line.period, rest, found.lost, witnessed, settings)
+    period = float(np.ptp(line.at(index[[0, -1]]))) / (index[-1] - index[0])
+    return _Part(mended, ~found.unsure, order, period, rest, found.lost, witnessed, settings)
 
 
 def _without_small_settings(time, index, period, grain, witnessed):

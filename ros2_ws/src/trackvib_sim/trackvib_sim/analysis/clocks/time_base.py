@@ -6,11 +6,12 @@ from mr_mount_controller.node_base import topics
 from ...numerics.units import NANO
 from ..measured import sound_samples
 from ..numbers import SENSORS
-from ..stamps import period_of, timing
+from ..stamps import period_of
 from .common_band import on_common_band
 from .mending import NoClock, is_even, mend
 from .notes import clock_notes
 from .resampling import resampled
+from .wander import at_even_instants, edges_of
 
 SLIP = 0.05  # periods, by which one sensor may get ahead of the other without being resampled
 PARTS = 50  # of a recording, in which stamps are compared with the recorder's times
@@ -45,11 +46,17 @@ def on_one_time_base(recording):
         if clock is not None:
             clocks[end] = clock
     chassis, powertrain = (found.pop(sensor) for sensor in SENSORS)
-    if not any(np.isfinite(each.specific_force[0]).all() for each in (chassis, powertrain)):
+    measured = [bool(np.isfinite(each.specific_force[0]).all()) for each in (chassis, powertrain)]
+    if not any(measured):
         raise NoClock(f"neither {' nor '.join(_ENDS.values())} measured an acceleration: {'; '.join(notes)}")
-    for step in (_by_one_clock, _at_the_same_instants):
-        powertrain, words = step(chassis, powertrain)
-        notes += words
+    if all(measured):
+        for step in (_by_one_clock, _at_the_same_instants):
+            powertrain, words = step(chassis, powertrain)
+            notes += words
+    elif measured[0]:
+        powertrain = _nothing_beside(chassis)
+    else:
+        chassis = _nothing_beside(powertrain)
     pair, own, words = on_common_band({"chassis": chassis, "powertrain": powertrain}, ALIKE)
     notes += words
     return recording._replace(**pair, sensors=found, own=own, notes=tuple(notes), clocks=clocks)
@@ -70,14 +77,20 @@ def _mended(inertial, end):
     notes = [] if clock is None else clock_notes(end, clock)
     if not sound.any():
         why = "its covariance says so" if denied else "no sample is a number"
-        force = np.broadcast_to(np.nan, found.specific_force.shape)
-        return found._replace(specific_force=force), clock, [*notes, f"{end}: acceleration was not measured, {why}"]
-    if not sound.all():
+        found = found._replace(specific_force=np.broadcast_to(np.nan, found.specific_force.shape))
+        notes.append(f"{end}: acceleration was not measured, {why}")
+    elif not sound.all():
         notes.append(
             f"{end}: samples that are no numbers: {len(sound) - sound.sum()}; each ends a stretch as a gap does"
         )
         found = found.at(sound)
-    return found, clock, notes
+    found, words = at_even_instants(found, end)
+    return found, clock, notes + words
+
+
+def _nothing_beside(inertial):
+    """Return what a sensor that measured nothing has at the instants of the other: it has none of its own to keep."""
+    return inertial._replace(specific_force=np.broadcast_to(np.nan, inertial.specific_force.shape))
 
 
 def _way_out(inertial):
@@ -140,11 +153,13 @@ def _stamps_at(inertial):
 
 def _at_the_same_instants(chassis, powertrain):
     """Return the powertrain at the instants of the chassis, if its samples slip against those, and a note."""
+    if np.array_equal(chassis.stamp, powertrain.stamp):  # as of a simulator
+        return powertrain, []
     period, other = period_of(chassis.stamp), period_of(powertrain.stamp)
     if abs(other / period - 1.0) > ALIKE:
         return powertrain, []
     stamps, slips = [], []
-    edges = _edges(powertrain.stamp)
+    edges = edges_of(powertrain.stamp)
     for begin, end in zip(edges[:-1], edges[1:], strict=True):
         own = powertrain.stamp[begin:end]
         first, last = np.searchsorted(chassis.stamp, (own[0], own[-1] + 1))
@@ -171,8 +186,3 @@ def _at_the_same_instants(chassis, powertrain):
         f"{max(slips):.3g} samples): resampled, band-limited, to the instants of chassis/imu"
     )
     return type(powertrain)(stamp, np.concatenate(force), None), [note]
-
-
-def _edges(stamp):
-    """Return first indices of the stretches of even stamps, and their number."""
-    return [0, *timing(stamp, 0)[1].tolist(), len(stamp)]
