@@ -116,6 +116,8 @@ BAD = [
      ("shock_absorbers.damping has 2 values", "one for each of 6 stations")),
     ("wheel_x: {value: [2.10, 1.28,", "wheel_x: {value: [2.10, 2.28,",
      ("swing_arms", "6 places, each behind the last")),
+    ("shear_damping: {value: 4.0e3", "shear_damping: {value: 4.0e4",
+     ("ground: shear_damping / shear_stiffness is 0.04 s, must be at most 0.02 s, or shear_stiffness 0",)),
     ("links: {value: 120,", "links: {value: 120.5,", ("tracks.links.0 is 120.5", "multiple of 1")),
     ("links: {value: 120,", "links: {value: 500,", ("tracks.links.0 is 500", "less than or equal to 250")),
     ("teeth: {value: 14,", "teeth: {value: 3,", ("sprocket_teeth.teeth is 3", "greater than or equal to 6")),

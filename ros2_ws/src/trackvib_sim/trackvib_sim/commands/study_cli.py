@@ -163,7 +163,7 @@ def calibrate(generations, plan, without, vehicle, scheduler, out):
     type=click.IntRange(1, 100),
     default=4,
     show_default=True,
-    help="Runs a case, each with its own phase between the two tracks.",
+    help="Runs a case, each with its own phase between the two tracks; variants have half of them.",
 )
 @_SCHEDULER
 @_out("m113")

@@ -18,6 +18,7 @@ MOST_STATIONS = 12
 MOST_ROLLERS = 12
 MOST_CONTACTS = 4  # of a link with a sprocket
 SIDES = 2
+LONGEST_SHEAR = 0.02  # s, of the ground's damping to its stiffness
 
 by_station = lambda unit, **limits: one_or_many(unit, MOST_STATIONS, **limits)  # noqa: E731 - read as types
 by_side = lambda unit, **limits: Annotated[one_or_many(unit, SIDES, **limits), AfterValidator(_pair)]  # noqa: E731
@@ -186,13 +187,24 @@ class TracksParameters(Section):
 
 
 class GroundParameters(Section):
-    """The ground under one shoe."""
+    """The ground under one shoe. Without `shear_stiffness` it is viscous up to Coulomb's limit and keeps no shear."""
 
     stiffness: scalar("N/m", gt=0.0)
     damping: Gain("N s/m")
-    shear_stiffness: scalar("N/m", gt=0.0)
+    shear_stiffness: Gain("N/m")
     shear_damping: Gain("N s/m")
     friction: scalar("-", gt=0.0)
+
+    @model_validator(mode="after")
+    def _short_shear(self):
+        # the spring of a sliding shoe is drawn to where spring and damper together give friction: by about speed times
+        # this time, which must stay far below a shoe's length
+        if self.shear_stiffness > 0.0 and self.shear_damping > LONGEST_SHEAR * self.shear_stiffness:
+            raise ValueError(
+                f"shear_damping / shear_stiffness is {self.shear_damping / self.shear_stiffness:.3g} s, "
+                f"must be at most {LONGEST_SHEAR:g} s, or shear_stiffness 0"
+            )
+        return self
 
 
 def at_stations(values, stations):

@@ -24,7 +24,8 @@ from trackvib_sim.studies.m113.measures import (
 from trackvib_sim.studies.m113.reference import LEVEL, RATE, ROUGH, references, road_of, standing_octaves
 from trackvib_sim.studies.m113.road_share import road_share
 from trackvib_sim.studies.m113.statics import reference_wheel_loads, standing_wheel_loads
-from trackvib_sim.studies.m113.table import table_csv, table_rows
+from trackvib_sim.studies.m113.study import cases
+from trackvib_sim.studies.m113.table import beside_variants, table_csv, table_rows
 from trackvib_sim.studies.m113.variants import BASE, VARIANTS
 from trackvib_sim.vehicle.system import Operation
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
@@ -70,24 +71,23 @@ def test_reference_has_the_levels_that_it_was_handed_over_with(road, speed, high
 @pytest.mark.slow(reason="whole drives")
 @pytest.mark.cross_engine
 def test_rough_road_agrees(m113, rough):
-    """What docs/m113.md says of class C: 26 of 28 third octaves agree, and the road's part; what shakes is no line.
+    """What docs/m113.md says of class C: 100 to 500 Hz, its third octaves and the road's part agree; no line shakes.
 
-    At 5 m/s the level from 100 to 500 Hz and lines agree, too, and the tensioners' forces: 25 to 27 kN were measured
-    left and 3.7 to 4.5 kN right, here to a tenth and a quarter.
+    At 5 m/s lines agree, too, and the tensioners' forces: 25 to 27 kN were measured left and 3.7 to 4.5 kN right, here
+    to a tenth and a quarter.
     """
     assert all(result.status == GOOD for result in rough.values())
     rows = {(row.quantity, row.speed): row for row in table_rows(rough, m113)}
-    assert all(rows[octave_name(centre), 5].agrees for centre in THIRD_OCTAVES[:-1])
-    assert all(rows[octave_name(centre), 10].agrees for centre in THIRD_OCTAVES)
     for speed in (5, 10):
+        assert rows[band_name(*HIGH), speed].agrees
+        assert all(rows[octave_name(centre), speed].agrees for centre in THIRD_OCTAVES)
         assert rows[band_name(*ROAD_BORNE), speed].factor == pytest.approx(1.0, abs=0.25)
         assert max(rows[LINES_SHARE, speed].ours, rows[LINES_SHARE, speed].theirs) < 0.15
         assert rows[ROAD_SHARE, speed].ours > rows[ROAD_SHARE, speed].theirs
-    assert rows[band_name(*HIGH), 5].agrees
     assert all(rows[line_name(k), 5].agrees for k in (1, 2, 3))
     assert rows[CORRELATION, 10].ours > 0.7
     left, right = (rows[name, 5].ours for name in TENSIONERS)
-    assert 25e3 / 1.1 < left < 27e3 * 1.1
+    assert left == pytest.approx(26e3, rel=0.1)
     assert 3.7e3 / 1.25 < right < 4.5e3 * 1.25
 
 
@@ -122,12 +122,12 @@ def test_standing_the_reference_shakes_less_than_rolling():
 
 @pytest.mark.cross_engine
 def test_wheels_carry_what_statics_of_the_reference_give(m113):
-    """Together to 1 %, most within 5 %; those at the end of the taut track and on the slack one within 15 %."""
+    """Together to 1 %, most within 3 %; those at the ends of the taut track and beside them within 10 %."""
     ours, theirs = standing_wheel_loads(m113), reference_wheel_loads()
     factor = ours / theirs
     assert ours.sum() == pytest.approx(theirs.sum(), rel=0.01)
-    assert np.abs(factor - 1.0).max() < 0.15
-    assert (np.abs(factor - 1.0) < 0.05).sum() >= 8
+    assert np.abs(factor - 1.0).max() < 0.1
+    assert (np.abs(factor - 1.0) < 0.03).sum() >= 6
 
 
 @pytest.mark.slow(reason="a whole drive")
@@ -138,6 +138,17 @@ def test_table_has_every_quantity_of_a_case(rough, m113):
     assert len(rows) == 2 * len({row.quantity for row in rows}) == 2 * len(next(iter(rough.values())).numbers)
     assert all(row.least <= row.ours <= row.greatest for row in rows)
     assert len(table_csv(rows).splitlines()) == 1 + len(rows)
+
+
+@pytest.mark.property
+def test_variants_are_set_beside_runs_of_the_same_phases():
+    """They have every second phase, and so has the vehicle where it is set beside them."""
+    found = {case: case.track_phase for case in cases(4)}
+    beside = beside_variants(found)
+    assert len(found) == 4 * 4 + 2 * 4 * (len(VARIANTS) - 1)
+    for variant in VARIANTS:
+        phases = [case.track_phase for case in beside if case.variant == variant]
+        assert phases == [0.0, 0.5] * len(references())
 
 
 @pytest.mark.property

@@ -39,6 +39,8 @@ def at_even_instants(inertial, end):
         angular_velocity=None,
         logged=None if inertial.logged is None else np.concatenate(logged),
         covariance=None,
+        orientation=None,
+        orientation_covariance=None,
     )
     lowest, highest = _rates(stamp, parts)
     note = (

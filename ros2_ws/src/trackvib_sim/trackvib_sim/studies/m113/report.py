@@ -3,18 +3,20 @@
 from .case import CORRELATION, RESISTANCE, ROAD_SHARE, TENSIONERS
 from .measures import BANDS, LINES, LINES_SHARE, THIRD_OCTAVES, band_name, line_name, octave_name
 from .reference import LEVEL, standing_octaves
-from .table import CORRELATION_GOAL, FACTORS, GOALS, LOAD_GOAL, ROAD_BORNE_GOAL, variant_factors
+from .table import CORRELATION_GOAL, FACTORS, GOALS, LOAD_GOAL, ROAD_BORNE_GOAL
 from .variants import BASE, VARIANTS
 
 _HIGH = band_name(*BANDS[3])
 
 
-def report(rows, loads, frequencies, phases):
+def report(rows, factors, loads, frequencies, phases):
     """Return the report as Markdown text.
 
     Parameters
     ----------
     rows : list of table.Row
+    factors : dict
+        As `table.variant_factors` returns them.
     loads : pair of arrays (2, stations)
         Static wheel loads, ours and theirs, N.
     frequencies : dict
@@ -24,7 +26,7 @@ def report(rows, loads, frequencies, phases):
     """
     mine = [row for row in rows if row.variant == BASE]
     parts = [_head(phases), _levels(mine), _phases(mine), _standing(mine), _sides(mine), _loads(*loads)]
-    parts += [_ride(frequencies), _variants(rows)]
+    parts += [_ride(frequencies), _variants(factors)]
     return "\n".join(parts)
 
 
@@ -142,16 +144,15 @@ def _ride(frequencies):
     return "\n".join(lines) + "\n"
 
 
-def _variants(rows):
+def _variants(factors):
     lines = [
         "## What differences come from",
         "",
         "One thing changed at a time: levels as factors of those of the vehicle file, geometric mean over the four",
-        "cases (0.5-5 Hz and correlation: the rough road; the latter as it is).",
+        "cases (0.5-5 Hz and correlation: the rough road; the latter as it is), over every second phase.",
         "",
         *_header("variant", *FACTORS),
     ]
-    factors = variant_factors(rows)
     lines += [_line(VARIANTS[name].title, *(f"{each:.2f}" for each in values)) for name, values in factors.items()]
     return "\n".join(lines) + "\n"
 

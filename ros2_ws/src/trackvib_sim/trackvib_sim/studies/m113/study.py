@@ -19,7 +19,7 @@ from .picture import m113_picture
 from .reference import references
 from .report import range_cell, report
 from .statics import reference_ride_frequencies, reference_wheel_loads, standing_wheel_loads
-from .table import FACTORS, failures, table_csv, table_rows, variant_factors
+from .table import FACTORS, beside_variants, failures, table_csv, table_rows, variant_factors
 from .variants import BASE, VARIANTS
 
 VEHICLE = "m113"
@@ -32,7 +32,7 @@ def run_m113(phases, scheduler, out):
     Parameters
     ----------
     phases : int
-        Number of runs a case, each with its own phase between the two tracks.
+        Number of runs a case, each with its own phase between the two tracks; variants have half of them.
     scheduler, out
         As `table1.run_table1` takes them.
 
@@ -46,23 +46,24 @@ def run_m113(phases, scheduler, out):
     store = CaseStore(folder / "cases", text, M113Case, M113Result)
     found = run_shown(vehicle, cases(phases), store, folder, console, scheduler, drive_m113)
     rows = table_rows(found, vehicle)
+    factors = variant_factors(table_rows(beside_variants(found), vehicle))
     loads = standing_wheel_loads(vehicle), reference_wheel_loads()
     with new_file(folder / "m113.csv") as file:
         file.write(table_csv(rows).encode())
     with new_file(folder / "m113.md") as file:
-        file.write(report(rows, loads, ride_frequencies(vehicle), phases).encode())
+        file.write(report(rows, factors, loads, ride_frequencies(vehicle), phases).encode())
     with new_file(folder / "m113.png") as file:
         m113_picture(rows, found, file)
-    _print(console, rows, loads, failures(found), folder)
+    _print(console, rows, factors, loads, failures(found), folder)
 
 
 def cases(phases):
-    """Return the cases of the study."""
+    """Return the cases of the study: the vehicle at all phases, variants at every second one."""
     return [
         M113Case(variant, road, speed, k / phases)
         for variant in VARIANTS
         for road, speed in references()
-        for k in range(phases)
+        for k in range(0, phases, 1 if variant == BASE else 2)
     ]
 
 
@@ -76,7 +77,7 @@ def ride_frequencies(vehicle):
     return {name: (ours[name], theirs[name]) for name in theirs}
 
 
-def _print(console, rows, loads, failed, folder):
+def _print(console, rows, factors, loads, failed, folder):
     mine = [row for row in rows if row.variant == BASE]
     names = [*dict.fromkeys(row.quantity for row in mine if row.agrees is not None), ROAD_SHARE, LINES_SHARE]
     heads = list(dict.fromkeys((row.road, row.speed) for row in mine))
@@ -87,13 +88,13 @@ def _print(console, rows, loads, failed, folder):
     title = "Lines over the phases, ours from the least run to the greatest / theirs; ! is where theirs lies outside"
     lines = {name: [range_cell(by_place[(name, *head)], "{} !") for head in heads] for name in map(line_name, LINES)}
     _print_cases(console, title, heads, lines)
-    factors = ", ".join(f"{each:.2f}" for each in (loads[0] / loads[1]).ravel())
-    console.print(f"static wheel loads, ours / theirs, left and right from front to rear: {factors}", soft_wrap=True)
-    title = "One thing changed: levels as factors of those above, correlation as it is"
+    carried = ", ".join(f"{each:.2f}" for each in (loads[0] / loads[1]).ravel())
+    console.print(f"static wheel loads, ours / theirs, left and right from front to rear: {carried}", soft_wrap=True)
+    title = "One thing changed: levels as factors of those of the same phases, correlation as it is"
     changed = Table("variant", title=title, title_justify="left")
     for name in FACTORS:
         changed.add_column(name, justify="right")
-    for name, values in variant_factors(rows).items():
+    for name, values in factors.items():
         changed.add_row(name, *(f"{each:.2f}" for each in values))
     console.print(changed)
     for line in failed:

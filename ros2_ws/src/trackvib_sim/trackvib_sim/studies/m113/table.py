@@ -81,6 +81,15 @@ def table_rows(found, vehicle):
     return rows
 
 
+def beside_variants(found):
+    """Return the part of a dict of cases and results that has the phases at which variants were driven.
+
+    Lines depend on the phase between the tracks: only runs of the same phases can be set beside each other.
+    """
+    phases = {case.track_phase for case in found if case.variant != BASE}
+    return {case: result for case, result in found.items() if case.track_phase in phases}
+
+
 def variant_factors(rows):
     """Return what each variant makes of the vehicle's own levels, by its name: a factor for each of `FACTORS`.
 

@@ -85,6 +85,7 @@ def add_ground(ground, nodes, heights, first, spacing, begin, end, work, dt):
         ground.shear_damping,
         ground.friction,
     )
+    yields = k_s if k_s > 0.0 else np.inf  # N/m: a ground without springs keeps no shear
     for i in range(count):
         low, rise = work[NodeWorkOffset.LOW * STRIDE + i], work[NodeWorkOffset.RISE * STRIDE + i]
         slope = rise / (spacing * work[NodeWorkOffset.STRETCH * STRIDE + i])
@@ -106,8 +107,8 @@ def add_ground(ground, nodes, heights, first, spacing, begin, end, work, dt):
         pull_y = k_s * (shear_y + dt * vy) + c_s * vy
         cut = min(mu * normal / (np.sqrt(pull_x * pull_x + pull_y * pull_y) + LEAST), 1.0)
         pull_x, pull_y = cut * pull_x, cut * pull_y
-        shear_x = on * (pull_x - c_s * ahead) / k_s
-        shear_y = on * (pull_y - c_s * vy) / k_s
+        shear_x = on * (pull_x - c_s * ahead) / yields
+        shear_y = on * (pull_y - c_s * vy) / yields
         nodes[NodeOffset.SHEAR * STRIDE + i] = shear_x
         nodes[(NodeOffset.SHEAR + 1) * STRIDE + i] = shear_y
         push = -sine * normal - cosine * pull_x
