@@ -76,6 +76,8 @@ def _read(file, name, units, layouts, optional, most, called):
     for number, line in lines:
         cells = next(csv.reader([line], delimiter=delimiter))
         try:
+            if any(cell.strip() for cell in cells[len(columns) :]):  # as decimal commas between commas make them
+                raise ValueError
             numbers.extend([_number(cells[place], delimiter) for place in places])
         except (ValueError, IndexError):
             shown = readable(shortened(line))
