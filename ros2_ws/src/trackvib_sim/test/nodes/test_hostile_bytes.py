@@ -20,7 +20,7 @@ from sensor_msgs.msg import Imu
 from std_msgs.msg import String
 from trackvib_msgs.msg import CoilCurrent, MountState, RoadProfile
 from trackvib_sim.bags.definitions import Definition
-from trackvib_sim.bags.reading import COLUMNS
+from trackvib_sim.bags.known_topics import COLUMNS
 from trackvib_sim.bags.schemas import schema_text
 from trackvib_sim.nodes.messages import mount_description
 

@@ -8,8 +8,8 @@ A bag as a folder
 Bags that are written
     writing (new), copying (from another one), repair (completed); provenance, versions, timekeeping.
 Bags that are read
-    reading, columns, cdr_layout, recording (as columns of numbers), raw_messages (as bytes), contents (from the
-    index), playing (in order of time).
+    reading, known_topics, columns, cdr_layout, mounting_of_bag, recording (as columns of numbers), raw_messages (as
+    bytes), contents (from the index), playing (in order of time).
 Bags of others
     sources (which sensors there are), accelerations, places, transforms, csv_recording.
 

@@ -9,61 +9,31 @@ from pathlib import Path
 
 import numpy as np
 from mcap.records import Channel, Metadata, Schema
-from mr_mount_controller.mounting import MOST_COILS, MOST_MOUNTS, described, undescribed
+from mr_mount_controller.mounting import described
 from mr_mount_controller.node_base import topics
 from rosbags.serde import SerdeError
 
 from ..numerics.units import NANO
-from .accelerations import ACCELERATION_TYPES, IMU_COLUMNS, Accelerations
-from .columns import Columns, Topic
+from .accelerations import ACCELERATION_TYPES, Accelerations
+from .columns import Topic
 from .csv_recording import csv_recording, pair_of
 from .definitions import Definition
 from .errors import BagError
 from .files import find_files
+from .known_topics import COLUMNS, FURTHER, NEEDED, TYPES, end_of
 from .limits import TooLarge
 from .mcap_records import DAMAGE
 from .mcap_walk import Walk
+from .mounting_of_bag import mounting_of
 from .opening import how_to_convert, opened
-from .places import ODOMETRY_COLUMNS, PLACE_TYPES, Places
+from .places import PLACE_TYPES, Places
 from .raw_messages import NO_SCHEMA
-from .recording import Answers, Commands, Drive, LoopCounts, Mounts, Recording
+from .recording import LoopCounts, Recording
 from .sources import Sources, end_of_sensor, is_csv
-from .transforms import TF_STATIC, TF_TYPE, transforms_in
+from .transforms import TF_STATIC, transforms_in
 from .unfolding import unfold_messages
 
 HEADER_TIME, LOG_TIME = TIMES = ("header", "log")  # that may be the time base
-_NUMBERS = {name: (name, (-1,)) for name in ("current", "stiffness", "damping")}
-_VECTORS = {name: (name, (-1, 3)) for name in ("deflection", "velocity", "force")}
-_DRIVE = ("distance", "offset", "wanted_speed", "curvature", "engine_speed", "gear")
-_SPROCKETS = {name: (name, (2,)) for name in ("sprocket_speed", "sprocket_torque")}
-COLUMNS = {
-    topics.CHASSIS_IMU: IMU_COLUMNS,
-    topics.POWERTRAIN_IMU: IMU_COLUMNS,
-    topics.MOUNT_STATE: Columns(topics.MOUNT_STATE_TYPE, Mounts, {
-        "stamp": "header.stamp", **_NUMBERS, **_VECTORS, "dissipated_power": ("dissipated_power", (-1,)),
-    }),
-    topics.COIL_CURRENT: Columns(topics.COIL_CURRENT_TYPE, Answers, {
-        "sample_stamp": "sample_stamp", "current": ("current", (-1,)),
-    }),
-    topics.ODOMETRY: ODOMETRY_COLUMNS,
-    topics.DRIVE_STATE: Columns(topics.DRIVE_STATE_TYPE, Drive, {
-        "stamp": "header.stamp", **{name: (name, ()) for name in _DRIVE}, **_SPROCKETS,
-    }),
-    topics.DRIVE_COMMAND: Columns(topics.COMMAND_TYPE, Commands, {
-        "stamp": "header.stamp", "speed": ("twist.linear.x", ()), "yaw_rate": ("twist.angular.z", ()),
-    }),
-}  # fmt: skip
-_NEEDED = (topics.CHASSIS_IMU, topics.POWERTRAIN_IMU)
-_RARE = {  # read message by message
-    topics.DIAGNOSTICS.removeprefix("/"): topics.DIAGNOSTICS_TYPE,
-    topics.VEHICLE_DESCRIPTION: topics.VEHICLE_DESCRIPTION_TYPE,
-    topics.DRIVE_DESCRIPTION: topics.DRIVE_DESCRIPTION_TYPE,
-    topics.MOUNT_DESCRIPTION: topics.MOUNT_DESCRIPTION_TYPE,
-    topics.ROAD_PROFILE: topics.ROAD_PROFILE_TYPE,
-    TF_STATIC: TF_TYPE,
-}
-_TYPES = {end: columns.type_name for end, columns in COLUMNS.items()} | _RARE
-_FURTHER = topics.imu_topic("")  # stands for the end of every further sensor's topic
 _SENSOR, _PLACE = "sensor", "place"  # stand for topics that are told by their types
 _ROS_1 = "ros1msg"  # encoding of the definitions of ROS 1, whose messages are serialised in another way
 _ANSWERS = ("accepted", "late", "duplicate", "not_finite")  # to samples that were out, among the diagnostics
@@ -180,11 +150,11 @@ class _Reading:
         """Return as what messages of a type are taken; None where they are not."""
         if self._sources.sensor_on(topic) is not None:
             return _SENSOR if type_name in ACCELERATION_TYPES else None
-        end = _end_of(topic)
-        if end in (*_NEEDED, _FURTHER):
+        end = end_of(topic)
+        if end in (*NEEDED, FURTHER):
             return _SENSOR if type_name == topics.IMU_TYPE else None
         if end is not None:
-            return end if type_name == _TYPES[end] else None
+            return end if type_name == TYPES[end] else None
         return _PLACE if type_name in PLACE_TYPES else None
 
     def _take(self, topic, type_name, end, definition, data, start, size, logged):
@@ -224,9 +194,9 @@ class _Reading:
 
     def recording(self, path):
         """Return it all."""
-        found = {end: [] for end in _TYPES}
+        found = {end: [] for end in TYPES}
         for topic in self._columns | self._roads | self._texts | self._mountings:
-            found[_end_of(topic)].append(topic)
+            found[end_of(topic)].append(topic)
         if not self._accelerations.taken and self._ros_1:
             raise BagError(
                 f"bag {str(path)!r} holds messages of ROS 1 on {', '.join(sorted(self._ros_1))}; "
@@ -241,8 +211,9 @@ class _Reading:
             for end, candidates in found.items()
             if candidates
         }
-        columns = {end: self._columns[chosen[end]].columns() for end in COLUMNS if end in chosen and end not in _NEEDED}
-        mounting = self._mounting(chosen, columns)
+        columns = {end: self._columns[chosen[end]].columns() for end in COLUMNS if end in chosen and end not in NEEDED}
+        told = self._mountings.get(chosen.get(topics.MOUNT_DESCRIPTION))
+        mounting = mounting_of(told, columns.get(topics.MOUNT_STATE), columns.get(topics.COIL_CURRENT))
         if topics.COIL_CURRENT in chosen:  # answers of another number of currents are none
             fits = lambda answers: answers.current.shape[1] == mounting.coils  # noqa: E731
             answers = self._columns[chosen[topics.COIL_CURRENT]].columns(fits)
@@ -278,36 +249,9 @@ class _Reading:
             complete=self._complete,
         )
 
-    def _mounting(self, chosen, columns):
-        """Return the `Mounting` that is described, or else of as many coils and mounts as there are numbers."""
-        told, mounts = self._mountings.get(chosen.get(topics.MOUNT_DESCRIPTION)), columns.get(topics.MOUNT_STATE)
-        if mounts is None:
-            answers = columns.get(topics.COIL_CURRENT)
-            coils = count = told.coils if told else 2 if answers is None else answers.current.shape[1]
-        else:
-            coils, (count, *others) = mounts.current.shape[1], (column.shape[1] for column in mounts[2:])
-            if any(other != count for other in others) or coils > count:
-                raise ValueError(f"{topics.MOUNT_STATE} has {coils} currents and {count}, {others} numbers of mounts")
-        if coils > MOST_COILS or count > MOST_MOUNTS:
-            raise ValueError(f"it has {coils} coils and {count} mounts, accepted are {MOST_COILS} and {MOST_MOUNTS}")
-        if told is None:
-            return undescribed(coils, count)
-        if mounts is not None and (told.coils, len(told.mounts)) != (coils, count):
-            raise ValueError(
-                f"{topics.MOUNT_DESCRIPTION} tells of {told.coils} coils and {len(told.mounts)} mounts, "
-                f"{topics.MOUNT_STATE} has {coils} and {count}"
-            )
-        return told
-
 
 def _require_undamaged(walk):
     """Numbers with a hole that nobody sees are worse than none."""
     for damage in walk.damage:
         if damage.size:
             raise ValueError(f"it is damaged at {damage}; `trackvib bag repair` keeps all else")
-
-
-def _end_of(topic):
-    """Return by which of the known ends a topic is known; None by none."""
-    further = _FURTHER if topic.endswith(_FURTHER) else None
-    return next((end for end in _TYPES if f"/{topic}".endswith(f"/{end}")), further)

@@ -7,7 +7,8 @@ import numpy as np
 from mr_mount_controller.node_base import topics
 
 from ..analysis.numbers import AXES
-from ..bags.reading import COLUMNS, read_recording
+from ..bags.known_topics import COLUMNS
+from ..bags.reading import read_recording
 from ..bags.versions import versions
 from ..console import followed
 from ..nodes.simulator_parameters import prepare_again
