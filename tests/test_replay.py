@@ -184,5 +184,5 @@ def test_a_bag_without_what_is_needed(start_cli, tmp_path):
     for option in ("--law", "--controller"):
         replay = start_cli("replay", tmp_path / "empty", option, "passive", "--out", tmp_path / "out")
         assert replay.wait() == 1
-        assert f"error: bag '{tmp_path / 'empty'}' holds no" in replay.output
+        assert f"error: bag '{tmp_path / 'empty'}': it holds no" in replay.output
     assert not (tmp_path / "out").exists()
