@@ -11,6 +11,7 @@ from .conftest import UNHURRIED
 pytestmark = [pytest.mark.system, pytest.mark.slow(reason="each test is a loop of real processes")]
 
 LOOP_TOPICS = ("/chassis/imu", "/powertrain/imu", "/coil_current", "/mount_state")
+ODOMETRY_PERIOD = 10_000_000  # ns
 
 
 @pytest.fixture
@@ -81,8 +82,9 @@ def test_reset_gives_the_first_run_again(start_node, loop, observer, tmp_path):
         assert 500 <= len(cut) < len(whole) == 1500
         assert cut == whole[: len(cut)], topic
     drive = read_recording(second)
-    # a simulator that waits for road tells again where it is
-    assert len(set(drive.odometry.stamp.tolist())) == 151 and drive.counts["/vehicle_description"] == 1
+    # a simulator that waits for road tells again where it is, whenever that is
+    regular = {stamp for stamp in drive.odometry.stamp.tolist() if stamp % ODOMETRY_PERIOD == 0}
+    assert len(regular) == 151 and drive.counts["/vehicle_description"] == 1
     assert drive.counts["/road_profile"] > 10
     assert drive.provenance["parameters of /controller"]["law"] == "skyhook"
 
