@@ -2,10 +2,10 @@
 
 import click
 
-from ..analysis.numbers import INTERVAL, SPEED_BAND
 from ..analysis.settling import SHORTEST_SETTLING
 from .endings import fail
 from .option_types import FiniteRange, largest_chunk_option
+from .part_options import interval_option, speed_band_option
 from .sensor_options import sensor_options
 
 
@@ -21,22 +21,8 @@ from .sensor_options import sensor_options
     help=f"Time from the start of each bag that does not count, in s, {SHORTEST_SETTLING:g} or more: filters "
     "settle, too.  [default: until the recorded run has settled, by its parameters]",
 )
-@click.option(
-    "--interval",
-    type=FiniteRange(1.0, 1e6),
-    default=INTERVAL,
-    metavar="M",
-    show_default=True,
-    help="Length of the intervals of way by which numbers are given, in m.",
-)
-@click.option(
-    "--speed-band",
-    type=FiniteRange(0.1, 1e3),
-    default=SPEED_BAND,
-    metavar="V",
-    show_default=True,
-    help="Width of the bands of speed by which numbers are given, in m/s.",
-)
+@interval_option
+@speed_band_option
 @click.option(
     "--out",
     type=click.Path(file_okay=False),

@@ -2,10 +2,10 @@
 
 import click
 
-from ..analysis.numbers import INTERVAL, SPEED_BAND
 from ..analysis.settling import SHORTEST_SETTLING
 from .endings import fail
 from .option_types import FiniteRange, largest_chunk_option
+from .part_options import interval_option, speed_band_option
 from .sensor_options import sensor_options
 
 _ALIGNMENTS = ("auto", "speed", "distance", "none")
@@ -24,22 +24,8 @@ _ALIGNMENTS = ("auto", "speed", "distance", "none")
     help="Compare what was driven at the same speed, or at the same distance along the way; auto: by speed where both "
     "tell it (odometry or satellite fixes), else statistics of all that counts.",
 )
-@click.option(
-    "--speed-band",
-    type=FiniteRange(0.1, 1e3),
-    default=SPEED_BAND,
-    show_default=True,
-    metavar="V",
-    help="Width of the bands of speed in m/s.",
-)
-@click.option(
-    "--interval",
-    type=FiniteRange(1.0, 1e6),
-    default=INTERVAL,
-    show_default=True,
-    metavar="M",
-    help="Length of the intervals of way in m.",
-)
+@interval_option
+@speed_band_option
 @click.option(
     "--settle",
     type=FiniteRange(SHORTEST_SETTLING, 1e6),

@@ -4,8 +4,6 @@ import threading
 from contextlib import contextmanager
 
 from ..console import Terminal
-from ..data import find_vehicle
-from ..vehicle.vehicle_file import VehicleFileError, read_vehicle
 from .result_folder import CommandError
 from .run import run_loop
 from .view import Served
@@ -13,11 +11,7 @@ from .view import Served
 
 def run_with_view(choices, out):
     """Do a run as `run.run_loop` does, and show it; its view stays until Ctrl-C. Raises as that does."""
-    try:
-        vehicle, _ = read_vehicle(find_vehicle(choices.vehicle).absolute())
-    except VehicleFileError as error:
-        raise CommandError(str(error)) from None
-    run_loop(choices, out, lambda: _live_view(vehicle, choices.title, Terminal()))
+    run_loop(choices, out, lambda vehicle: _live_view(vehicle, choices.title, Terminal()))
 
 
 @contextmanager

@@ -58,7 +58,8 @@ class Choices:
 def run_loop(choices, out, viewing=nullcontext):
     """Do a run; everything it leaves lies in one new folder, `out` or one named by time, road and speed.
 
-    `viewing` makes a context manager for the time of the run, entered once its processes have been made.
+    `viewing` makes a context manager for the time of the run of a vehicle (`parameters.Vehicle`), entered once its
+    processes have been made.
 
     Raises
     ------
@@ -81,7 +82,7 @@ def run_loop(choices, out, viewing=nullcontext):
             f"--duration is {choices.duration:g} s, must be at least {settling + SHORTEST_MEASURING:.1f} s {how}: "
             f"{settling:.1f} s to settle and {SHORTEST_MEASURING:g} s to measure"
         )
-    with LoopProcesses(ONE_PROCESS if choices.one_process else FOUR_PROCESSES) as processes, viewing():
+    with LoopProcesses(ONE_PROCESS if choices.one_process else FOUR_PROCESSES) as processes, viewing(vehicle):
         with own_domain():
             name = f"{datetime.now():%Y%m%dT%H%M%S}_{_short(choices.road)}_{_pace(choices)}"
             folder = make_folder(out or Path("runs") / name)
