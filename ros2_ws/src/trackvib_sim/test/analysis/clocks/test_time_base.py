@@ -1,4 +1,4 @@
-"""Clocks of real sensors: coarse, late, drifting, set; numbers as if they were perfect, and what was done is told."""
+"""Clocks of real sensors: coarse, late, drifting; numbers as if they were perfect, and what was done is told."""
 
 import numpy as np
 import pytest
@@ -6,34 +6,10 @@ from trackvib_sim.analysis.analyse import analyse
 from trackvib_sim.analysis.clocks.mending import NoClock
 from trackvib_sim.analysis.clocks.time_base import on_one_time_base
 
-from .made_sensors import RMS_Z, TONES, both, nanoseconds, recorded, sensor, times
+from .made_sensors import both, nanoseconds, recorded, sensor, times
+from .right_numbers import LOGGED, require_right, says
 
-LOGGED = pytest.mark.parametrize("logged", [True, False], ids=["recorder's times", "stamps alone"])
 MS = 1e-3  # s
-
-
-def require_right(found, rate, tones=False):
-    """Make sure that an `Analysis` has the numbers of the made motion, as the issue's bounds have it."""
-    assert found.rate == pytest.approx(rate, rel=1e-3)
-    for name, gain in (("chassis", 1.0), ("powertrain", 0.5)):
-        assert found.sensors[name]["z"].rms == pytest.approx(gain * RMS_Z, rel=0.02)
-        assert found.sensors[name]["z"].mean == pytest.approx(9.81, rel=0.01)
-    frequency, spectra = found.spectra.frequency, found.spectra
-    strongest = np.argsort(spectra.psd["chassis"][1:, 2])[::-1][:6] + 1
-    for tone in TONES:
-        at = int(np.argmin(np.abs(frequency - tone)))
-        assert at in strongest
-        assert spectra.transmissibility[at, 2] == pytest.approx(0.5, rel=0.02)
-        assert spectra.coherence[at, 2] > 0.95
-    if tones:
-        band = (frequency >= 2.0) & (frequency <= 0.4 * rate)
-        assert spectra.coherence[band, 1].min() > 0.95
-        assert spectra.transmissibility[band, 1] == pytest.approx(0.5, rel=0.02)
-
-
-def says(found, *words):
-    """Return whether a note holds all words."""
-    return any(all(word in note for word in words) for note in found.notes)
 
 
 @pytest.mark.analytic
@@ -218,37 +194,6 @@ def test_periods_that_scatter_are_no_loss(scatter, logged):
 
 
 @pytest.mark.property
-@LOGGED
-@pytest.mark.parametrize("step", [-2.0, -60.0, 7200.0, 0.1, -0.1])
-def test_a_clock_that_is_set_while_recording(step, logged):
-    """The recorder's times bear out that no sample is lost; without them there are two stretches."""
-    time = times(1000.0, 20.0)
-    told = time.copy()
-    told[7500:] += step
-    found = analyse(both(time, told, logged=logged))
-    require_right(found, 1000.0)
-    assert found.measured == pytest.approx(18.0 if logged else 16.0, abs=0.01)
-    if logged:
-        assert found.duration == pytest.approx(20.0)
-        way = "ahead" if step > 0.0 else "back"
-        assert says(found, f"clock was set {way} by {abs(step):g} s", "taken back")
-
-
-@pytest.mark.property
-@LOGGED
-@pytest.mark.parametrize(("samples", "step"), [(slice(0, 3), -1.7e9), (slice(4000, 4500), 500.0)])
-def test_a_clock_that_is_wrong_for_a_moment(samples, step, logged):
-    """Not set yet, or wrong for half a second: nearly all samples count."""
-    time = times(1000.0, 20.0)
-    told = time.copy()
-    told[samples] += step
-    found = analyse(both(time, told, logged=logged))
-    require_right(found, 1000.0)
-    assert found.duration == pytest.approx(20.0, abs=0.01) and found.measured >= 15.0
-    assert says(found, "the clock was set") or says(found, "left out")
-
-
-@pytest.mark.property
 def test_parts_in_any_order_and_copies():
     """A file whose second half comes first, and one that has a part twice."""
     time = times(1000.0, 10.0)
@@ -299,16 +244,3 @@ def test_stamps_that_are_no_time_base_are_refused():
             on_one_time_base(both(time, np.ceil(time), logged=logged))
         with pytest.raises(NoClock, match=r"stamps of chassis/imu do not go on: 7999 steps, 7999 of 0 ms"):
             on_one_time_base(both(time, np.full(len(time), 5.0), logged=logged))
-
-
-@pytest.mark.property
-@LOGGED
-def test_single_wild_stamps(logged):
-    """Ten of 20000 that are a day ahead: the rest counts as it stands; without other times they are lost samples."""
-    time = times(1000.0, 20.0)
-    wild = np.arange(2100, 2130)
-    told = time.copy()
-    told[wild[::3]] += 86400.0
-    found = analyse(both(time, told, logged=logged))
-    require_right(found, 1000.0)
-    assert found.duration == pytest.approx(20.0) and found.measured > 15.0
