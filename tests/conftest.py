@@ -18,7 +18,7 @@ from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import Trigger
 
 from .bag_helpers import edit_bag
-from .processes import PATIENCE, Process, Program, trackvib
+from .processes import PATIENCE, Process, Program, processes_printing_to, trackvib
 
 PACKAGES = {
     "simulator": "trackvib_sim",
@@ -95,12 +95,14 @@ def env(domain):
 
 
 @pytest.fixture
-def processes():
-    """The processes of a test, which end with it."""
+def processes(tmp_path):
+    """The processes of a test, which end with it, and with them what they have started."""
     started = []
     yield started
     for process in started:
         process.clean_up()
+    # nodes end a moment after their killed parent, and the next test may use their ROS domain
+    wait_until(lambda: not processes_printing_to(tmp_path), what="the end of all nodes")
 
 
 @pytest.fixture

@@ -131,10 +131,15 @@ def trackvib(*arguments, code=0, cwd=None, env=None):
 
 def nodes_of(run):
     """Return the process ids of the nodes that print to a run's folder, by name."""
+    return processes_printing_to(run / "log")
+
+
+def processes_printing_to(folder):
+    """Return the process ids of what prints to files of a folder, by name."""
     found = {}
     for process in Path("/proc").glob("[0-9]*"):
         try:
-            if (process / "fd" / "1").readlink().is_relative_to(run / "log"):
+            if (process / "fd" / "1").readlink().is_relative_to(folder):
                 found[(process / "comm").read_text().strip()] = int(process.name)
         except OSError:  # it has ended, or is another user's
             continue
