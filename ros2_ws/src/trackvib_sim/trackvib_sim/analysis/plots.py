@@ -8,11 +8,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 from .numbers import AXES, SENSORS  # noqa: E402
+from .sensor_style import COLOURS, LOWEST_FREQUENCY, NAMES  # noqa: E402
 from .vibration import psd  # noqa: E402
-
-COLOURS = {"chassis": "#3b6ea5", "powertrain": "#d1662b"}
-NAMES = ("longitudinal x", "lateral y", "vertical z")
-LOWEST_FREQUENCY = 1.0  # Hz, where the spectrum starts
 
 
 def run_picture(prepared, title, path):

@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 from .numbers import SENSORS
-from .plots import LOWEST_FREQUENCY, NAMES  # noqa: E402
+from .sensor_style import LOWEST_FREQUENCY, NAMES  # noqa: E402
 from .vibration import psd  # noqa: E402
 
 COLOURS = ("#6b7785", "#c2410c")  # recorded, replayed

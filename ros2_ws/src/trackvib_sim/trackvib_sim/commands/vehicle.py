@@ -14,7 +14,6 @@ from rich.text import Text
 from ..console import Terminal
 from ..data import find_vehicle, vehicle_names
 from ..drawings.assembled_vehicle import assemble_vehicle
-from ..drawings.vehicle_picture import vehicle_picture
 from ..drawings.vehicle_table import Figure, Parameter, figures, parameters
 from ..vehicle.body_tree import FRONT, drive_end
 from ..vehicle.parameters import Vehicle
@@ -39,12 +38,14 @@ def run_vehicle(name_or_file, picture):
     path = find_vehicle(name_or_file)
     vehicle, text = read_vehicle(path)
     tables = _parameters(text), _figures(vehicle)
-    with whole_or_none(Path(picture)) as (file,):
-        vehicle_picture(vehicle, file)
     out = Terminal()
     out.print(f"vehicle: {path}", soft_wrap=True)  # as the title of a table it would be broken in its middle
     for table in tables:
         out.print(table)
+    from ..drawings.vehicle_picture import vehicle_picture  # imported late: the tables are there already
+
+    with whole_or_none(Path(picture)) as (file,):
+        vehicle_picture(vehicle, file)
     out.print(f"drawing: {picture}")
 
 

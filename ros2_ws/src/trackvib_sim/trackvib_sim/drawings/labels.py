@@ -50,16 +50,20 @@ class Labels:
         size = paper.size(label)
         to_pixels = label.plot.transData.transform
         point, region = to_pixels(label.point), label.plot.get_window_extent()
-        candidates = [(point + r * np.array([np.cos(a), np.sin(a)]), True) for r in _DISTANCES for a in _ANGLES]
+        away = _DISTANCES[:, None, None] * np.stack((np.cos(_ANGLES), np.sin(_ANGLES)), axis=-1)
+        led = point + away.reshape(-1, 2)
+        middles, is_led = led, np.full(len(led), True)
         if label.box is not None:
             low, high = to_pixels(label.box[0]) + 0.5 * size + _AROUND, to_pixels(label.box[1]) - 0.5 * size - _AROUND
             if np.all(low < high):
                 grid = np.stack(np.meshgrid(*np.linspace(low, high, _STEPS).T), axis=-1).reshape(-1, 2)
-                candidates += [(middle, False) for middle in grid]
+                middles, is_led = np.concatenate((led, grid)), np.repeat((True, False), (len(led), len(grid)))
         others = [np.concatenate((to_pixels(low), to_pixels(high))) for low, high in label.others]
-        inside = [each for each in candidates if _within(each[0], size, region)] or candidates
-        costs = [paper.cost(middle, size, point, led, others) for middle, led in inside]
-        middle, led = inside[int(np.argmin(costs))]
+        inside = _within(middles, size, region)
+        if inside.any():
+            middles, is_led = middles[inside], is_led[inside]
+        best = int(np.argmin(paper.costs(middles, size, point, is_led, others)))
+        middle, led = middles[best], is_led[best]
         paper.take(middle, size, point if led else None)
         place = label.plot.transData.inverted().transform(middle)
         if led:
@@ -68,9 +72,9 @@ class Labels:
             text(label.plot, label.words, place, color=label.colour, bbox=None)
 
 
-def _within(middle, size, region):
-    low, high = middle - 0.5 * size, middle + 0.5 * size
-    return low[0] >= region.x0 and low[1] >= region.y0 and high[0] <= region.x1 and high[1] <= region.y1
+def _within(middles, size, region):
+    low, high = middles - 0.5 * size, middles + 0.5 * size
+    return np.all((low >= (region.x0, region.y0)) & (high <= (region.x1, region.y1)), axis=-1)
 
 
 class _Paper:
@@ -84,12 +88,7 @@ class _Paper:
             differs = np.abs(np.diff(pixels, axis=axis)).max(axis=-1) > _DIFFERENT
             self.ink[: differs.shape[0], : differs.shape[1]] += differs
         self.words = np.zeros(pixels.shape[:2])
-        self._sum()
-
-    def _sum(self):
-        self._ink_sum, self._words_sum = (
-            np.pad(each.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0))) for each in (self.ink, self.words)
-        )
+        self._ink_sum, self._words_sum = _summed(self.ink), _summed(self.words)
 
     def size(self, label):
         """Return width and height (2,) of words [px]."""
@@ -98,40 +97,48 @@ class _Paper:
         trial.remove()
         return np.array([extent.width, extent.height])
 
-    def cost(self, middle, size, point, led, others):
-        """Return what words for a `point` cost at a place, with a leader or without."""
-        low, high = middle - 0.5 * size - _AROUND, middle + 0.5 * size + _AROUND
-        cost = _FAR * np.hypot(*(middle - point))
-        cost += _ON_INK * self._count(self._ink_sum, low, high) + _ON_WORDS * self._count(self._words_sum, low, high)
+    def costs(self, middles, size, point, led, others):
+        """Return what words for a `point` cost at places (k, 2) [px], `led` there by a leader or not (k,): (k,)."""
+        low, high = middles - 0.5 * size - _AROUND, middles + 0.5 * size + _AROUND
+        costs = _FAR * np.hypot(*(middles - point).T)
+        costs += _ON_INK * self._count(self._ink_sum, low, high) + _ON_WORDS * self._count(self._words_sum, low, high)
         for box in others:
             overlap = np.minimum(high, box[2:]) - np.maximum(low, box[:2])
-            cost += _ELSEWHERE * np.prod(np.maximum(overlap, 0.0))
-        if not led:
-            return cost
-        if np.all((low < point) & (point < high)):
-            return np.inf
-        x, y = self._line(middle, size, point)
-        return cost + _LED + _CROSSED * self.ink[y, x].sum() + _ON_WORDS * self.words[y, x].sum()
+            costs += _ELSEWHERE * np.prod(np.maximum(overlap, 0.0), axis=-1)
+        pixels, drawn = self._lines(middles[led], size, point)
+        x, y = np.moveaxis(pixels, -1, 0)
+        costs[led] += _LED + np.sum(drawn * (_CROSSED * self.ink[y, x] + _ON_WORDS * self.words[y, x]), axis=-1)
+        costs[led & np.all((low < point) & (point < high), axis=-1)] = np.inf
+        return costs
 
     def take(self, middle, size, point):
         """Mark the place of words, and their leader's, as taken."""
         (x0, y0), (x1, y1) = self._clip(middle - 0.5 * size), self._clip(middle + 0.5 * size)
         self.words[y0:y1, x0:x1] = 1.0
         if point is not None:
-            x, y = self._line(middle, size, point)
+            pixels, drawn = self._lines(middle[None], size, point)
+            x, y = pixels[drawn].T
             self.words[y, x] = 1.0
-        self._sum()
+        self._words_sum = _summed(self.words)
 
-    def _line(self, middle, size, point):
-        start = middle + (0.5 * size[0] * np.sign(point[0] - middle[0]), 0.0)
-        length = np.hypot(*(point - start))
-        share = np.linspace(0.0, max(0.0, 1.0 - _NEAR / max(length, _NEAR)), max(2, int(length)))
-        return self._clip(start + share[:, None] * (point - start)).T
+    def _lines(self, middles, size, point):
+        """Return the pixels of leaders from words at (k, 2) to a point, (k, n, 2), and which are theirs (k, n)."""
+        starts = middles + np.stack((0.5 * size[0] * np.sign(point[0] - middles[:, 0]), np.zeros(len(middles))), -1)
+        length = np.hypot(*(point - starts).T)
+        count = np.maximum(2, length.astype(int))
+        number = np.arange(count.max(initial=2))
+        share = number / (count - 1)[:, None] * np.maximum(0.0, 1.0 - _NEAR / np.maximum(length, _NEAR))[:, None]
+        return self._clip(starts[:, None] + share[..., None] * (point - starts)[:, None]), number < count[:, None]
 
     def _clip(self, place):
         rows, columns = self.ink.shape
         return np.clip(np.round(place).astype(int), 0, (columns - 1, rows - 1))
 
     def _count(self, sums, low, high):
-        (x0, y0), (x1, y1) = self._clip(low), self._clip(high)
+        (x0, y0), (x1, y1) = self._clip(low).T, self._clip(high).T
         return sums[y1, x1] - sums[y0, x1] - sums[y1, x0] + sums[y0, x0]
+
+
+def _summed(pixels):
+    """Return the sums over all pixels below and left of each corner."""
+    return np.pad(pixels.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))

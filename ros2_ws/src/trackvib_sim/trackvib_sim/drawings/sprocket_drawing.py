@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..analysis.plots import COLOURS
+from ..analysis.sensor_style import COLOURS
 from ..scene.teeth import half_gap
 from ..vehicle.body_tree import LEFT, sprocket_name
 from .technical_drawing import INK, MARKS, PARTS, SHADE, disc, drawing

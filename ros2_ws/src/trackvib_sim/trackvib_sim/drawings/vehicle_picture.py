@@ -9,7 +9,7 @@ matplotlib.use("Agg")  # files only: no display is needed
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
-from ..analysis.plots import COLOURS  # noqa: E402
+from ..analysis.sensor_style import COLOURS  # noqa: E402
 from ..vehicle.body_tree import (  # noqa: E402
     FRONT,
     LEFT,

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.markers import CARETDOWN, CARETUP
 
-from ..analysis.plots import COLOURS
+from ..analysis.sensor_style import COLOURS
 from ..scene.bodies import even_density_sides
 from ..vehicle.body_tree import (
     HULL,

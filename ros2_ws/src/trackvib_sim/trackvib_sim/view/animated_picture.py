@@ -9,7 +9,7 @@ import numpy as np  # noqa: E402
 from matplotlib.collections import LineCollection, PolyCollection  # noqa: E402
 from PIL import Image  # noqa: E402
 
-from ..analysis.plots import COLOURS  # noqa: E402
+from ..analysis.sensor_style import COLOURS  # noqa: E402
 from ..console import followed  # noqa: E402
 from ..numerics.units import NANO  # noqa: E402
 from ..scene.colours import DAMPED, POWERTRAIN_SHADE, SENSORS, of_load  # noqa: E402

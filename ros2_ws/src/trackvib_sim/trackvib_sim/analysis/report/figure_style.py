@@ -6,7 +6,7 @@ from math import log10
 import numpy as np
 import plotly.graph_objects as go
 
-from ..plots import COLOURS, LOWEST_FREQUENCY, NAMES
+from ..sensor_style import COLOURS, LOWEST_FREQUENCY, NAMES
 
 SENSOR_COLOURS = COLOURS
 AXIS_COLOURS = {"x": "#2a9d8f", "y": "#9467bd", "z": "#c8453c"}

@@ -12,7 +12,7 @@ matplotlib.use("Agg")  # files only: no display is needed
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
-from ...analysis.plots import COLOURS  # noqa: E402
+from ...analysis.sensor_style import COLOURS  # noqa: E402
 from ...analysis.vibration import psd  # noqa: E402
 from ...road.iso8608 import HIGHEST, LOWEST, SPACING, roughness_of  # noqa: E402
 
