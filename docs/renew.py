@@ -56,8 +56,14 @@ def blocks(text):
 
 def markdown(rows):
     """Return a table in Markdown; the first row is its head."""
-    head, *others = ([re.sub(r"[|<]", r"\\\g<0>", str(cell)) for cell in row] for row in rows)
+    head, *others = ([_cell(str(cell)) for cell in row] for row in rows)
     return "".join(f"| {' | '.join(row)} |\n" for row in (head, ["---"] * len(head), *others))
+
+
+def _cell(text):
+    """Keep what Markdown takes for a column, and outside of code for HTML."""
+    parts = re.split(r"(`[^`]*`)", text)
+    return "".join(part if part.startswith("`") else part.replace("<", "&lt;") for part in parts).replace("|", "\\|")
 
 
 class Commands:

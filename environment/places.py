@@ -19,5 +19,3 @@ class Places:
         self.python = self.venv / "bin" / "python3"
         self.workspace = self.home / "workspace"
         self.kernels = self.home / "kernels"
-        self.view = self.home / "view"
-        self.viewer = self.view / "packages"

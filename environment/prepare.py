@@ -16,8 +16,8 @@ from environment.stages import Setup, job_variables, plan
 _UNUSABLE = re.compile(r"[^A-Za-z0-9 /._+=@~%-]")
 
 
-def prepare(root: Path, view: bool = False) -> dict:
-    """Make the environment of the checkout at `root` ready, and the viewer; return the variables of a job in it.
+def prepare(root: Path, extras: tuple = ()) -> dict:
+    """Make the environment of the checkout at `root` ready, and `Extra`s; return the variables of a job in it.
 
     A stage is done if its folder holds a stamp with the right key, which is written last. Any other stage, never
     begun or interrupted or out of date, is wiped and done anew. Raises SetupError if that is not possible.
@@ -28,20 +28,20 @@ def prepare(root: Path, view: bool = False) -> dict:
     places = Places(root)
     ros = ros2.find(os.environ)
     setup = Setup(places, ros, _interpreter(places, ros))
-    stages = plan(setup, view)
+    stages = plan(setup, extras)
     if not all(_is_done(stage) for stage in stages):
         began = time.monotonic()
         for stop in (signal.SIGTERM, signal.SIGHUP):
             signal.signal(stop, _interrupt)
         with steps.only_one(places.lock) as lock:
-            _do(setup, view, lock)
+            _do(setup, extras, lock)
         steps.say(f"ready after {time.monotonic() - began:.0f} s")
     return job_variables(setup, stages[-1].key)
 
 
-def _do(setup: Setup, view: bool, lock: int) -> None:
+def _do(setup: Setup, extras: tuple, lock: int) -> None:
     log = setup.places.logs / "setup"
-    for stage in plan(setup, view):
+    for stage in plan(setup, extras):
         if _is_done(stage):
             continue
         if stage.name == "packages":

@@ -8,11 +8,13 @@ import json
 import os
 import re
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
 from environment import SetupError, activate, network
 from environment import ros as ros2
+from environment.extras import EXTRAS, Extra
 from environment.kernels import usable
 from environment.places import Places
 from environment.ros import Ros
@@ -23,8 +25,6 @@ from environment.system import Interpreter
 _DECISIVE = {"package.xml", "CMakeLists.txt", "pyproject.toml", "setup.py", "setup.cfg"}
 _INTERFACES = {".msg", ".srv", ".action"}
 _OTHERS = {"test", "build"}  # folders that colcon does not install from; the second is left by pip
-
-_VIEWER_PYTHON = (3, 11)  # the first one that rerun-sdk has packages for
 
 _PROBE = 4  # s that the first package's server may be silent
 
@@ -54,8 +54,8 @@ class Stage(NamedTuple):
     make: Callable[[Task], None]
 
 
-def plan(setup: Setup, view: bool) -> list:
-    """The stages, in order, with the keys that they have to have now; the viewer's only if it is wanted."""
+def plan(setup: Setup, extras: tuple) -> list:
+    """The stages, in order, with the keys that they have to have now; of `EXTRAS` those that are wanted."""
     places, ros, python = setup
     if ros.prefix:
         packages = f"Python packages beside ROS 2 Jazzy of {ros.prefix}"
@@ -65,12 +65,11 @@ def plan(setup: Setup, view: bool) -> list:
     includes = _hash(places.environment / "wheel_includes.cmake")
     workspace = fingerprint([venv, includes, [_workspace_sources(folder) for folder in _packages(places, ros)]])
     kernels = fingerprint([venv, _python_sources(places.sources / "trackvib_sim" / "trackvib_sim")])
-    viewer = Stage("view", "setting up (once): the viewer", "about 1 min with a fast network", places.view,
-                   fingerprint([venv, _hash(_viewer_lock(places))]), lambda task: _make_view(setup, task))  # fmt: skip
     return [
         Stage("packages", f"setting up (once): {packages}", "about 1 min with a fast network", places.venv, venv,
               lambda task: _make_venv(setup, task)),
-        *([viewer] if view else []),
+        *(Stage(extra.name, f"setting up (once): {extra.what}", "about 1 min with a fast network", extra.folder(places),
+                fingerprint([venv, _hash(extra.lock(places))]), partial(_make_extra, setup, extra)) for extra in extras),
         Stage("workspace", "building the ROS 2 packages", "about 40 s", places.workspace, workspace,
               lambda task: _make_workspace(setup, task)),
         Stage("kernels", "compiling the simulation", "about 30 s", places.kernels, kernels,
@@ -83,8 +82,10 @@ def job_variables(setup: Setup, kernels: str) -> dict:
     env = activate.variables(setup.places, setup.ros, os.environ)
     # numba looks at the file of a compiled function, not at those of the functions it calls: a folder a key.
     env["NUMBA_CACHE_DIR"] = str(usable(setup.places.kernels / kernels[:16], os.environ))
-    if setup.places.viewer.is_dir():  # behind everything else: it brings one package that nothing else has
-        env["PYTHONPATH"] = os.pathsep.join(filter(None, [env.get("PYTHONPATH"), str(setup.places.viewer)]))
+    # Behind everything else: extras bring packages that nothing else has.
+    there = [str(extra.packages(setup.places)) for extra in EXTRAS if extra.packages(setup.places).is_dir()]
+    if there:
+        env["PYTHONPATH"] = os.pathsep.join(filter(None, [env.get("PYTHONPATH"), *there]))
     return env
 
 
@@ -101,14 +102,14 @@ def _make_venv(setup: Setup, task: Task) -> None:
     task.run([*pip, "--no-build-isolation", "-r", str(setup.lock_file)], env)
 
 
-def _make_view(setup: Setup, task: Task) -> None:
-    """Install the viewer beside the environment: half a gigabyte that no other verb needs."""
+def _make_extra(setup: Setup, extra: Extra, task: Task) -> None:
+    """Install an extra's packages beside the environment."""
     places, _, python = setup
-    if tuple(map(int, python.version.split(".")[:2])) < _VIEWER_PYTHON:
-        wanted = ".".join(map(str, _VIEWER_PYTHON))
-        raise SetupError(f"the viewer needs Python {wanted} or later, this environment has {python.version}")
-    command = [*_pip(places), "--only-binary=:all:", "--target", str(places.viewer), "-r", str(_viewer_lock(places))]
-    task.run(command, dict(os.environ, PIP_USER="0"))
+    if tuple(map(int, python.version.split(".")[:2])) < extra.python:
+        wanted = ".".join(map(str, extra.python))
+        raise SetupError(f"{extra.what} needs Python {wanted} or later, this environment has {python.version}")
+    target = ["--target", str(extra.packages(places)), "-r", str(extra.lock(places))]
+    task.run([*_pip(places), "--only-binary=:all:", *target], dict(os.environ, PIP_USER="0"))
 
 
 def _pip(places: Places) -> list:
@@ -116,10 +117,6 @@ def _pip(places: Places) -> list:
     # -I keeps pip from counting what lies under ~/.local
     pip = [str(places.python), "-I", "-m", "pip", "--disable-pip-version-check", "--no-input", "install"]
     return [*pip, "--no-deps", "--require-hashes", "--progress-bar=off"]
-
-
-def _viewer_lock(places: Places) -> Path:
-    return places.environment / "requirements-view.lock"
 
 
 def _install_builder(setup: Setup, pip: list, env: dict, task: Task) -> None:

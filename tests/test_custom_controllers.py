@@ -1,4 +1,4 @@
-"""One's own controller: the README's ten lines, and one's own law on the stock node."""
+"""One's own controller: the ten lines of docs/controllers.md, and one's own law on the stock node."""
 
 import os
 import re
@@ -10,7 +10,7 @@ import pytest
 pytestmark = pytest.mark.system
 SLOW = pytest.mark.slow(reason="each controller is a loop of real processes")
 
-README = Path(__file__).parents[1] / "README.md"
+ROOT = Path(__file__).parents[1]
 LAW = '''
 from mr_mount_controller.laws.base import ControlLaw
 from mr_mount_controller.node_base.parameters import Parameter
@@ -39,9 +39,9 @@ def my_laws(tmp_path, env):
 
 
 @pytest.mark.slow(reason="a whole loop in real processes")
-def test_ten_lines_of_the_readme(start, start_node, tmp_path):
-    """The controller printed in the README closes the loop as it stands there."""
-    blocks = re.findall(r"```python\n(.*?)```", README.read_text(), re.DOTALL)
+def test_ten_lines_of_the_document(start, start_node, tmp_path):
+    """The controller printed in docs/controllers.md closes the loop as it stands there."""
+    blocks = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / "controllers.md").read_text(), re.DOTALL)
     controller = next(block for block in blocks if "coil_current" in block)
     assert len([line for line in controller.splitlines() if line.strip()]) <= 12
     (tmp_path / "my_controller.py").write_text(controller)
@@ -58,7 +58,7 @@ def test_own_law_in_a_whole_run(start, tmp_path):
     (tmp_path / "my_laws.py").write_text(LAW)
     options = "--law my_laws:Mine --duration 3 --out run"
     outside = "env -u TRACKVIB_ENVIRONMENT PYTHONPATH=."  # as from a shell that knows nothing of the environment
-    run = start(["sh", "-c", f"{outside} {README.parent / 'trackvib'} run {options}"])
+    run = start(["sh", "-c", f"{outside} {ROOT / 'trackvib'} run {options}"])
     assert run.wait() == 0, run.output
     assert "law my_laws:Mine" in run.output
 

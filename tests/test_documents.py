@@ -77,7 +77,8 @@ def test_rows_say_default_range_and_unit():
 
 def test_cells_keep_their_signs():
     """What Markdown would take for a column or for HTML is escaped."""
-    assert renew.markdown([("a", "b"), ("x|y", "<z>")]) == "| a | b |\n| --- | --- |\n| x\\|y | \\<z> |\n"
+    rows = [("a", "b", "c"), ("x|y", "<z>", "`<`")]
+    assert renew.markdown(rows) == "| a | b | c |\n| --- | --- | --- |\n| x\\|y | &lt;z> | `<` |\n"
 
 
 def test_only_blocks_are_renewed(tmp_path):

@@ -52,7 +52,7 @@ def commands(tmp_path_factory, domain):
 
 
 def python(document):
-    """Return the Python blocks of a document but the README's controller, which has no end and a test of its own."""
+    """Return the Python blocks of a document but the controller as a node, which has no end and a test of its own."""
     blocks = re.findall(r"^```python\n(.*?)^```", document.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
     return "\n".join(block for block in blocks if "rclpy.spin" not in block)
 

@@ -5,53 +5,59 @@ import matplotlib
 matplotlib.use("Agg")  # files only: no display is needed
 
 import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
 
 from .numbers import AXES, SENSORS  # noqa: E402
 from .sensor_style import COLOURS, LOWEST_FREQUENCY, NAMES  # noqa: E402
 from .vibration import psd  # noqa: E402
 
+_WIDTHS = {"chassis": (2.6, 0.45), "powertrain": (0.9, 1.0)}  # of lines, opacity: below a narrow one a broad one is seen
+CLOSE = 1.0  # s of the history: of a whole run the curve drawn last would hide the other
 
-def run_picture(prepared, title, path):
-    """Draw time histories of three axes and the vertical PSD of both sensors to a PNG file."""
-    figure = plt.figure(figsize=(13, 7.5), layout="constrained")
+
+def run_picture(prepared, lines, title, path):
+    """Draw a second of both sensors and their vertical PSD, with `numbers.Line`s of known cause, to a PNG file."""
+    figure = plt.figure(figsize=(13, 9.5), layout="constrained")
     figure.suptitle(title, fontsize=11, parse_math=False)  # names of roads and laws come from outside
-    histories, spectrum = figure.subfigures(1, 2, width_ratios=(1.25, 1.0))
+    histories, spectrum = figure.subfigures(2, 1, height_ratios=(1.5, 1.0))
     _histories(histories, prepared)
-    _spectrum(spectrum.subplots(), prepared)
+    _spectrum(spectrum.subplots(), prepared, lines)
     figure.savefig(path, dpi=110)
     plt.close(figure)
 
 
 def _histories(figure, prepared):
+    """The second in the middle of what is settled, or what there is of it."""
+    settled = prepared.time[prepared.settled] if prepared.settled.any() else prepared.time
+    start = max(0.5 * (settled[0] + settled[-1] - CLOSE), prepared.time[0])
+    shown = (prepared.time >= start) & (prepared.time <= start + CLOSE)
     axes = figure.subplots(len(AXES), 1, sharex=True)
     for column, (plot, name) in enumerate(zip(axes, NAMES, strict=True)):
         for sensor in SENSORS:
-            plot.plot(
-                prepared.time,
-                prepared.limited[sensor][:, column],
-                color=COLOURS[sensor],
-                linewidth=0.5,
-                alpha=0.8,
-                label=sensor,
-            )
+            values = prepared.limited[sensor][shown, column]
+            width, alpha = _WIDTHS[sensor]
+            plot.plot(prepared.time[shown], values, color=COLOURS[sensor], linewidth=width, alpha=alpha, label=sensor)
         plot.set_ylabel(f"{name}\nm/s²")
         plot.grid(alpha=0.3)
-        start = prepared.time[np.argmax(prepared.settled)]
-        plot.axvspan(prepared.time[0], start, color="0.9", zorder=0, label="settling" if column == 0 else None)
-    axes[0].legend(loc="upper right", fontsize=8, ncols=3)
-    axes[0].set_title("acceleration at the MR mounts' ends", fontsize=10)
+    axes[0].legend(loc="upper right", fontsize=8, ncols=2)
+    axes[0].set_title("acceleration at the MR mounts' ends, one second", fontsize=10)
     axes[-1].set_xlabel("time, s")
-    axes[-1].set_xlim(prepared.time[0], prepared.time[-1])
+    axes[-1].set_xlim(start, start + CLOSE)
 
 
-def _spectrum(plot, prepared):
+def _spectrum(plot, prepared, lines):
     for sensor in SENSORS:
         frequency, density = psd(prepared.raw[sensor][prepared.settled], prepared.rate)
         plot.loglog(frequency[1:], density[1:, 2], color=COLOURS[sensor], linewidth=1.0, label=sensor)
+    for line in lines:
+        side = "left" if line.name.startswith("link") else "right"  # of its line, for a link's and an order's lie close
+        plot.axvline(line.frequency, color="0.4", linewidth=0.8, linestyle=":")
+        plot.text(
+            line.frequency, 0.02, f"{line.name}: {line.frequency:.1f} Hz", transform=plot.get_xaxis_transform(),
+            rotation=90, va="bottom", ha=side, fontsize=7, color="0.25",
+        )  # fmt: skip
     plot.set_xlim(LOWEST_FREQUENCY, prepared.rate / 2)
     plot.set_xlabel("frequency, Hz")
     plot.set_ylabel("(m/s²)²/Hz")
-    plot.set_title("vertical power spectral density", fontsize=10)
+    plot.set_title("vertical power spectral density, with the lines of link passing (v/p) and of engine orders", fontsize=10)
     plot.grid(alpha=0.3, which="both")
-    plot.legend(fontsize=8)
+    plot.legend(fontsize=8, loc="upper left")

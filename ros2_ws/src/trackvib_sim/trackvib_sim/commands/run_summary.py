@@ -22,11 +22,12 @@ def evaluate(choices, settling, folder, console):
     # of a run that was reset the last epoch; its bag has the highest number
     bag = max(folder.glob("bag*"), key=lambda path: (len(path.name), path.name), default=folder / "bag")
     recording = read_recording(bag)
-    summary = {"run": asdict(choices), **summarise(analyse(recording, settling))}
+    analysis = analyse(recording, settling)
+    summary = {"run": asdict(choices), **summarise(analysis)}
     files = [folder / name for name in ("summary.json", "run.png", "summary.txt")]
     with whole_or_none(*files) as (numbers, picture, text):
         numbers.write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
-        run_picture(prepare(recording, settling), choices.title, picture)
+        run_picture(prepare(recording, settling), analysis.lines, choices.title, picture)
         with text.open("w", encoding="utf-8") as file:
             _print_summary(Terminal(file=file, width=100), summary, folder)
     _print_summary(console, summary, folder)
