@@ -1,4 +1,4 @@
-"""What only some verbs need: packages in a folder of their own, installed at the first use."""
+"""What only some verbs need: packages that are installed at the first use."""
 
 from pathlib import Path
 from typing import NamedTuple
@@ -7,28 +7,26 @@ from environment.places import Places
 
 
 class Extra(NamedTuple):
-    """Packages beside the environment, by a lock of their own: `requirements-NAME.lock`."""
+    """Packages by a lock of their own, `requirements-NAME.lock`, added to the environment."""
 
     name: str
     what: str  # what they are, in the words of the set-up
     python: tuple  # the first Python that there are packages for
 
     def lock(self, places: Places) -> Path:
-        """All its packages, pinned, but those that the environment has."""
+        """All its packages, pinned, but those that the environment has without it."""
         return places.environment / f"requirements-{self.name}.lock"
 
     def folder(self, places: Places) -> Path:
-        """The folder of its stage."""
-        return places.home / self.name
-
-    def packages(self, places: Places) -> Path:
-        """Where its packages lie."""
-        return self.folder(places) / "packages"
+        """The folder of its stage; within the environment, so that it goes with it."""
+        return places.venv / f"extra_{self.name}"
 
 
+STUDIES = Extra("studies", "the independent engine", (3, 10))
+TESTS = Extra("tests", "what runs and checks the tests", (3, 10))
 VIEW = Extra("view", "the viewer", (3, 11))
 DOCS = Extra("docs", "the generator of the documents' site", (3, 10))
-EXTRAS = (VIEW, DOCS)
+EXTRAS = (STUDIES, TESTS, VIEW, DOCS)
 
 
 def wanted(verb: str, arguments: list) -> tuple:
@@ -36,9 +34,13 @@ def wanted(verb: str, arguments: list) -> tuple:
     options = {word.split("=")[0] for word in arguments}
     if verb == "setup":
         return tuple(extra for extra in EXTRAS if f"--{extra.name}" in options)
+    if verb == "test":
+        return (STUDIES, TESTS)
     if options & {"-h", "--help"}:
         return ()
     if verb == "docs":
         return (DOCS,)
+    if verb == "study":
+        return (STUDIES,) if arguments[:1] == ["figures"] else ()
     shows = (verb == "view" and "--gif" not in options) or (verb == "run" and "--view" in options)
     return (VIEW,) if shows else ()

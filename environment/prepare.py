@@ -4,6 +4,7 @@ import os
 import re
 import signal
 import time
+from functools import partial
 from pathlib import Path
 
 from environment import SetupError, steps, system
@@ -41,18 +42,26 @@ def prepare(root: Path, extras: tuple = ()) -> dict:
 
 def _do(setup: Setup, extras: tuple, lock: int) -> None:
     log = setup.places.logs / "setup"
-    for stage in plan(setup, extras):
-        if _is_done(stage):
-            continue
-        if stage.name == "packages":
-            if not setup.ros.prefix:
-                ros2.check_wheels(setup.python.version)
-            system.require(setup.python, log / "apt.log")
-        with steps.Task(stage.what, stage.takes, log / f"{stage.name}.log", keep=(lock,)) as task:
-            steps.wipe(stage.folder)
-            stage.make(task)
-            stamp = {"key": stage.key, "python": setup.python._asdict(), "ros": str(setup.ros.prefix)}
-            steps.write_stamp(stage.folder, stamp)
+
+    def make(stages):
+        for stage in stages:
+            if _is_done(stage):
+                continue
+            with steps.Task(stage.what, stage.takes, log / f"{stage.name}.log", keep=(lock,)) as task:
+                steps.wipe(stage.folder)
+                stage.make(task)
+                stamp = {"key": stage.key, "python": setup.python._asdict(), "ros": str(setup.ros.prefix)}
+                steps.write_stamp(stage.folder, stamp)
+
+    packages, *others = plan(setup, extras)
+    if not _is_done(packages):
+        if not setup.ros.prefix:
+            ros2.check_wheels(setup.python.version)
+        system.require(setup.python, log / "apt.log")
+        make([packages])
+    # Extras only need the packages: they are fetched and unpacked while the others are compiled.
+    apart = [stage for stage in others if stage.extra]
+    steps.side_by_side(partial(make, apart), partial(make, [stage for stage in others if not stage.extra]))
 
 
 def _is_done(stage) -> bool:

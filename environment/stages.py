@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from environment import SetupError, activate, network
 from environment import ros as ros2
-from environment.extras import EXTRAS, Extra
+from environment.extras import Extra
 from environment.kernels import usable
 from environment.places import Places
 from environment.ros import Ros
@@ -52,6 +52,7 @@ class Stage(NamedTuple):
     folder: Path
     key: str
     make: Callable[[Task], None]
+    extra: bool = False  # only some verbs need it, and no other stage does
 
 
 def plan(setup: Setup, extras: tuple) -> list:
@@ -69,7 +70,7 @@ def plan(setup: Setup, extras: tuple) -> list:
         Stage("packages", f"setting up (once): {packages}", "about 1 min with a fast network", places.venv, venv,
               lambda task: _make_venv(setup, task)),
         *(Stage(extra.name, f"setting up (once): {extra.what}", "about 1 min with a fast network", extra.folder(places),
-                fingerprint([venv, _hash(extra.lock(places))]), partial(_make_extra, setup, extra)) for extra in extras),
+                fingerprint([venv, _hash(extra.lock(places))]), partial(_make_extra, setup, extra), True) for extra in extras),
         Stage("workspace", "building the ROS 2 packages", "about 40 s", places.workspace, workspace,
               lambda task: _make_workspace(setup, task)),
         Stage("kernels", "compiling the simulation", "about 30 s", places.kernels, kernels,
@@ -82,10 +83,6 @@ def job_variables(setup: Setup, kernels: str) -> dict:
     env = activate.variables(setup.places, setup.ros, os.environ)
     # numba looks at the file of a compiled function, not at those of the functions it calls: a folder a key.
     env["NUMBA_CACHE_DIR"] = str(usable(setup.places.kernels / kernels[:16], os.environ))
-    # Behind everything else: extras bring packages that nothing else has.
-    there = [str(extra.packages(setup.places)) for extra in EXTRAS if extra.packages(setup.places).is_dir()]
-    if there:
-        env["PYTHONPATH"] = os.pathsep.join(filter(None, [env.get("PYTHONPATH"), *there]))
     return env
 
 
@@ -103,13 +100,12 @@ def _make_venv(setup: Setup, task: Task) -> None:
 
 
 def _make_extra(setup: Setup, extra: Extra, task: Task) -> None:
-    """Install an extra's packages beside the environment."""
+    """Install an extra's packages into the environment; its folder only says that they are there."""
     places, _, python = setup
     if tuple(map(int, python.version.split(".")[:2])) < extra.python:
         wanted = ".".join(map(str, extra.python))
         raise SetupError(f"{extra.what} needs Python {wanted} or later, this environment has {python.version}")
-    target = ["--target", str(extra.packages(places)), "-r", str(extra.lock(places))]
-    task.run([*_pip(places), "--only-binary=:all:", *target], dict(os.environ, PIP_USER="0"))
+    task.run([*_pip(places), "--only-binary=:all:", "-r", str(extra.lock(places))], dict(os.environ, PIP_USER="0"))
 
 
 def _pip(places: Places) -> list:

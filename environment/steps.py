@@ -10,7 +10,9 @@ import shutil
 import signal
 import subprocess
 import sys
+import threading
 import time
+from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from pathlib import Path
 
 from environment import SetupError
@@ -78,8 +80,25 @@ def wipe(folder: Path) -> None:
     folder.mkdir()
 
 
+_STOPPED = threading.Event()  # set when what runs side by side shall end
+
+
+def side_by_side(*jobs) -> None:
+    """Do jobs at the same time, each a call without arguments; what one raises, or an interrupt, ends all."""
+    with ThreadPoolExecutor(len(jobs)) as pool:
+        futures = [pool.submit(job) for job in jobs]
+        try:
+            done, _ = wait(futures, return_when=FIRST_EXCEPTION)
+            for future in done:
+                future.result()
+        finally:
+            _STOPPED.set()  # those that are done do not mind
+
+
 class Task:
     """The commands of one stage: one line on the terminal, one log file."""
+
+    _at_work = []  # tasks, side by side
 
     def __init__(self, what: str, takes: str, log: Path, keep: tuple = ()):
         """`what` is done, `takes` says roughly how long; `keep` are file descriptors that the commands inherit."""
@@ -93,12 +112,15 @@ class Task:
         log.write_bytes(b"")
 
     def __enter__(self):
-        say(self._line, end="" if self._live else "\n")
+        self._at_work.append(self)
+        if not self._live:
+            say(self._line)
         return self
 
     def __exit__(self, *_):
         if self._live:
-            print(file=sys.stderr, flush=True)
+            self._show(end="\n")
+        self._at_work.remove(self)
 
     def run(self, command: list, env: dict, own_group: bool = True) -> None:
         """Run `command` into the log file. Raises SetupError, with the end of the log, if it fails.
@@ -123,13 +145,21 @@ class Task:
 
     def _wait(self, process) -> None:
         while True:
+            if self._live and self._at_work[0] is self:
+                self._show()
             try:
                 process.wait(timeout=1.0)
                 return
             except subprocess.TimeoutExpired:
-                if self._live:
-                    print("\r", end="", file=sys.stderr)
-                    say(f"{self._line} {time.monotonic() - self._began:.0f} s", end="")
+                if _STOPPED.is_set():
+                    raise SetupError(f"not finished: {self._what}") from None
+
+    def _show(self, end: str = "") -> None:
+        """Write the line anew; a terminal has one that moves, so that others at work share it."""
+        others = [task._what for task in self._at_work if task is not self and not end]
+        beside = f" (beside it: {', '.join(others)})" if others else ""
+        print("\r\033[K", end="", file=sys.stderr)
+        say(f"{self._line} {time.monotonic() - self._began:.0f} s{beside}", end=end)
 
     def _failure(self, code: int) -> str:
         tail = "\n".join(self._log.read_text(errors="replace").splitlines()[-_TAIL:])

@@ -2,4 +2,4 @@
 
 from ..extras import require
 
-require("studies", "cma", "cryptography", "distributed", "matplotlib", "pinocchio", "rich")
+require("studies", "cma", "cryptography", "distributed", "matplotlib", "rich")

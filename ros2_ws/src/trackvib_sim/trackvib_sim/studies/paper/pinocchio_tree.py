@@ -3,10 +3,15 @@
 from typing import NamedTuple
 
 import numpy as np
-import pinocchio as pin
 
-from ...rui.reference.placement import parent_rows
-from ...rui.state import free_bodies
+from ...extras import require
+
+require("studies", "pinocchio")
+
+import pinocchio as pin  # noqa: E402
+
+from ...rui.reference.placement import parent_rows  # noqa: E402
+from ...rui.state import free_bodies  # noqa: E402
 
 _JOINTS = {"revolute": pin.JointModelRevoluteUnaligned, "prismatic": pin.JointModelPrismaticUnaligned}
 
