@@ -12,11 +12,10 @@ to find those accelerations again, at the very end of the chain.
 import sys
 from pathlib import Path
 
-import matplotlib
 import numpy as np
 from inverse_dynamics import required_torques
 from machine import best_times, machine
-from matplotlib import pyplot
+from matplotlib.figure import Figure
 from peers import MujocoTree
 from rich.console import Console
 from rich.progress import track
@@ -108,8 +107,8 @@ def _arrays(record):
 
 def draw(results, path):
     """Draw time and memory against degrees of freedom."""
-    matplotlib.use("Agg")
-    figure, (left, right) = pyplot.subplots(1, 2, figsize=(10, 4.2), layout="constrained")
+    figure = Figure(figsize=(10, 4.2), layout="constrained")
+    left, right = figure.subplots(1, 2)
     for name, rows in results.items():
         dof = [row[0] for row in rows]
         left.loglog(dof, [row[1] for row in rows], "o-", label=name)

@@ -55,7 +55,9 @@ def on_files(files, config):
 
 def on_page_markdown(markdown, page, **_):
     """Take out the marks of `docs/renew.py`, and lead links to pages that lie above `docs/` to their place here."""
-    markdown = re.sub(r"\]\(\.\./(README\.md|CONTRIBUTING\.md|CHANGELOG\.md|CITATION\.cff|LICENSE)\b", _into_the_site, markdown)
+    markdown = re.sub(
+        r"\]\(\.\./(README\.md|CONTRIBUTING\.md|CHANGELOG\.md|CITATION\.cff|LICENSE)\b", _into_the_site, markdown
+    )
     return MARK.sub("\n", markdown)
 
 

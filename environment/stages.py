@@ -69,13 +69,19 @@ def plan(setup: Setup, extras: tuple) -> list:
     return [
         Stage("packages", f"setting up (once): {packages}", "about 1 min with a fast network", places.venv, venv,
               lambda task: _make_venv(setup, task)),
-        *(Stage(extra.name, f"setting up (once): {extra.what}", "about 1 min with a fast network", extra.folder(places),
-                fingerprint([venv, _hash(extra.lock(places))]), partial(_make_extra, setup, extra), True) for extra in extras),
+        *(_extra_stage(setup, extra, venv) for extra in extras),
         Stage("workspace", "building the ROS 2 packages", "about 40 s", places.workspace, workspace,
               lambda task: _make_workspace(setup, task)),
         Stage("kernels", "compiling the simulation", "about 30 s", places.kernels, kernels,
               lambda task: _make_kernels(setup, kernels, task)),
     ]  # fmt: skip
+
+
+def _extra_stage(setup: Setup, extra: Extra, venv: str) -> Stage:
+    places = setup.places
+    key = fingerprint([venv, _hash(extra.lock(places))])
+    what, takes = f"setting up (once): {extra.what}", "about 1 min with a fast network"
+    return Stage(extra.name, what, takes, extra.folder(places), key, partial(_make_extra, setup, extra), extra=True)
 
 
 def job_variables(setup: Setup, kernels: str) -> dict:

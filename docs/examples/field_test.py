@@ -5,14 +5,10 @@
 
 from typing import NamedTuple
 
-import matplotlib
-
-matplotlib.use("Agg")  # files only: no display is needed
-
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-import trackvib_sim as tv  # noqa: E402
-from trackvib_sim.analysis.vibration import band_limited, psd, rms  # noqa: E402
+import numpy as np
+import trackvib_sim as tv
+from matplotlib.figure import Figure
+from trackvib_sim.analysis.vibration import band_limited, psd, rms
 
 LINES = {"chassis": 74.07, "powertrain": 69.18}  # Hz, main peaks of the test, its Figure 14
 REDUCTIONS = {"z": 29.98, "y": 35.17, "x": -4.75}  # per cent, of the test, by our axes
@@ -76,7 +72,8 @@ def tell(pitch, drives, same):
 
 def draw(drives, same):
     """Draw RMS against speed, and spectra of the vertical, where the test has its Figures 13 and 14."""
-    figure, (left, right) = plt.subplots(1, 2, figsize=(10.0, 4.0), layout="constrained")
+    figure = Figure(figsize=(10.0, 4.0), layout="constrained")
+    left, right = figure.subplots(1, 2)
     for sensor, colour in zip(LINES, ("#4878a8", "#c8453c"), strict=True):
         for axis, style in zip(AXES, (":", "--", "-"), strict=True):
             levels = [each.rms[sensor][AXES.index(axis)] for each in drives]

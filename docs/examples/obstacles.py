@@ -6,16 +6,13 @@
 from pathlib import Path
 from typing import NamedTuple
 
-import matplotlib
-
-matplotlib.use("Agg")  # files only: no display is needed
-
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-import trackvib_sim as tv  # noqa: E402
-from scipy.signal import butter, sosfiltfilt  # noqa: E402
-from scipy.spatial.transform import Rotation  # noqa: E402
-from trackvib_sim.road.feeder import RoadFeeder  # noqa: E402
+import numpy as np
+import trackvib_sim as tv
+from matplotlib import colormaps
+from matplotlib.figure import Figure
+from scipy.signal import butter, sosfiltfilt
+from scipy.spatial.transform import Rotation
+from trackvib_sim.road.feeder import RoadFeeder
 
 FOLDER = Path(__file__).parent
 ROADS = {"8-inch inverted V": "m47_ramp.yaml", "12-inch square bump": "m47_bump.yaml"}
@@ -84,7 +81,8 @@ def told(run):
 
 def draw(runs, stop, file):
     """Draw the drives side by side, with where the bump stops are [mm], to a PNG file."""
-    figure, plots = plt.subplots(4, len(runs), figsize=(13, 11), sharex=True, sharey="row", layout="constrained")
+    figure = Figure(figsize=(13, 11), layout="constrained")
+    plots = figure.subplots(4, len(runs), sharex=True, sharey="row")
     for column, (name, (road, run)) in zip(plots.T, runs.items(), strict=True):
         ground, hull, accelerations, wheels = column
         first, last = (round(place / road.spacing) for place in (BEGIN, END))
@@ -100,7 +98,7 @@ def draw(runs, stop, file):
             accelerations.plot(run.distance, run.ride[:, k], color=colour, label=f"{sensor}, below {RIDE:g} Hz")
         accelerations.set_ylabel("vertical acceleration, m/s²")
         for k, travel in enumerate(run.travel.T):
-            wheels.plot(run.distance, travel, color=plt.colormaps["viridis"](k / 5), linewidth=1.0, label=f"{k + 1}")
+            wheels.plot(run.distance, travel, color=colormaps["viridis"](k / 5), linewidth=1.0, label=f"{k + 1}")
         wheels.axhline(stop, color="0.4", linestyle=":", label="stop")
         wheels.set(ylabel="left road wheels, mm", xlabel="distance of the hull's origin, m", xlim=(BEGIN, END))
         for plot in column:
@@ -108,7 +106,6 @@ def draw(runs, stop, file):
     for plot, columns in zip(plots[:, 0], (1, 1, 1, 7), strict=True):
         plot.legend(ncols=columns, fontsize=8, loc="upper right")
     figure.savefig(file, dpi=100)
-    plt.close(figure)
 
 
 def main():

@@ -5,7 +5,7 @@ from contextlib import suppress
 import numpy as np
 import pytest
 import yaml
-from matplotlib import pyplot as plt
+from matplotlib.figure import Figure
 from matplotlib.text import Annotation
 from matplotlib.transforms import Bbox
 from trackvib_sim.data import find_vehicle, vehicle_names
@@ -149,7 +149,8 @@ def fitting(content):
 @pytest.mark.property
 def test_words_keep_clear_of_each_other():
     """Words for points that lie close together do not overlap, stay in the plot, and keep off what is drawn."""
-    figure, plot = plt.subplots(figsize=(6.0, 4.0), dpi=100, layout="constrained")
+    figure = Figure(figsize=(6.0, 4.0), dpi=100, layout="constrained")
+    plot = figure.subplots()
     plot.set_xlim(0.0, 6.0)
     plot.set_ylim(0.0, 4.0)
     plot.axis("off")
@@ -166,13 +167,13 @@ def test_words_keep_clear_of_each_other():
         assert not any(extent.overlaps(other) for other in extents[:k])
         assert not extent.overlaps(black)
         assert plot.get_window_extent().contains(*extent.min) and plot.get_window_extent().contains(*extent.max)
-    plt.close(figure)
 
 
 @pytest.mark.property
 def test_words_stand_in_their_box_where_there_is_room():
     """A name in a wide box has no leader, one in a box that is too small has."""
-    figure, plot = plt.subplots(figsize=(6.0, 4.0), dpi=100, layout="constrained")
+    figure = Figure(figsize=(6.0, 4.0), dpi=100, layout="constrained")
+    plot = figure.subplots()
     plot.set_xlim(0.0, 6.0)
     plot.set_ylim(0.0, 4.0)
     labels = Labels()
@@ -182,4 +183,3 @@ def test_words_stand_in_their_box_where_there_is_room():
     wide, small = plot.texts
     assert not isinstance(wide, Annotation) and isinstance(small, Annotation)
     assert 1.0 < wide.get_position()[0] < 3.0 and 1.0 < wide.get_position()[1] < 2.0
-    plt.close(figure)

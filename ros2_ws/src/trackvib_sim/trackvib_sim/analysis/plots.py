@@ -1,28 +1,26 @@
 """Pictures of one run."""
 
-import matplotlib
+from matplotlib.figure import Figure
 
-matplotlib.use("Agg")  # files only: no display is needed
+from .numbers import AXES, SENSORS
+from .sensor_style import COLOURS, LOWEST_FREQUENCY, NAMES
+from .vibration import psd
 
-import matplotlib.pyplot as plt  # noqa: E402
-
-from .numbers import AXES, SENSORS  # noqa: E402
-from .sensor_style import COLOURS, LOWEST_FREQUENCY, NAMES  # noqa: E402
-from .vibration import psd  # noqa: E402
-
-_WIDTHS = {"chassis": (2.6, 0.45), "powertrain": (0.9, 1.0)}  # of lines, opacity: below a narrow one a broad one is seen
+_WIDTHS = {
+    "chassis": (2.6, 0.45),
+    "powertrain": (0.9, 1.0),
+}  # of lines, opacity: below a narrow one a broad one is seen
 CLOSE = 1.0  # s of the history: of a whole run the curve drawn last would hide the other
 
 
 def run_picture(prepared, lines, title, path):
     """Draw a second of both sensors and their vertical PSD, with `numbers.Line`s of known cause, to a PNG file."""
-    figure = plt.figure(figsize=(13, 9.5), layout="constrained")
+    figure = Figure(figsize=(13, 9.5), layout="constrained")
     figure.suptitle(title, fontsize=11, parse_math=False)  # names of roads and laws come from outside
     histories, spectrum = figure.subfigures(2, 1, height_ratios=(1.5, 1.0))
     _histories(histories, prepared)
     _spectrum(spectrum.subplots(), prepared, lines)
     figure.savefig(path, dpi=110)
-    plt.close(figure)
 
 
 def _histories(figure, prepared):
@@ -58,6 +56,8 @@ def _spectrum(plot, prepared, lines):
     plot.set_xlim(LOWEST_FREQUENCY, prepared.rate / 2)
     plot.set_xlabel("frequency, Hz")
     plot.set_ylabel("(m/s²)²/Hz")
-    plot.set_title("vertical power spectral density, with the lines of link passing (v/p) and of engine orders", fontsize=10)
+    plot.set_title(
+        "vertical power spectral density, with the lines of link passing (v/p) and of engine orders", fontsize=10
+    )
     plot.grid(alpha=0.3, which="both")
     plot.legend(fontsize=8, loc="upper left")

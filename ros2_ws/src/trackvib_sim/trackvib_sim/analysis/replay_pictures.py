@@ -1,15 +1,11 @@
 """Pictures of what was recorded beside what a replay gave."""
 
-import matplotlib
-
-matplotlib.use("Agg")  # files only: no display is needed
-
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
+import numpy as np
+from matplotlib.figure import Figure
 
 from .numbers import SENSORS
-from .sensor_style import LOWEST_FREQUENCY, NAMES  # noqa: E402
-from .vibration import psd  # noqa: E402
+from .sensor_style import LOWEST_FREQUENCY, NAMES
+from .vibration import psd
 
 COLOURS = ("#6b7785", "#c2410c")  # recorded, replayed
 COIL_COLOURS = ("#1d5fa8", "#c98a00", "#2f7f3f", "#a03f8f")
@@ -23,7 +19,7 @@ def drives_picture(drives, currents, title, path):
 
     `drives` maps two labels to `summary.Prepared`, `currents` the same to times [s] and currents (k, coils) [A].
     """
-    figure = plt.figure(figsize=(13, 9), layout="constrained")
+    figure = Figure(figsize=(13, 9), layout="constrained")
     histories, spectra = figure.subfigures(1, 2, width_ratios=(1.25, 1.0))
     rows = histories.subplots(3, 1, sharex=True)
     for plot, plot_of_psd, sensor in zip(rows, spectra.subplots(2, 1, sharex=True), SENSORS, strict=False):
@@ -56,9 +52,8 @@ def currents_picture(time, recorded, replayed, names, title, path):
 
     All of it on the left, on the right the second about the greatest difference.
     """
-    figure, rows = plt.subplots(
-        3, 2, figsize=(13, 7.5), sharex="col", sharey="row", layout="constrained", width_ratios=(1.6, 1.0)
-    )
+    figure = Figure(figsize=(13, 7.5), layout="constrained")
+    rows = figure.subplots(3, 2, sharex="col", sharey="row", width_ratios=(1.6, 1.0))
     difference = replayed - recorded
     middle = time[np.argmax(np.abs(difference).max(axis=1))]
     begin = max(min(middle - CLOSE / 2, time[-1] - CLOSE), time[0])
@@ -93,4 +88,3 @@ def _finish(figure, title, legend_of, path):
     for text in legend.get_texts():
         text.set_parse_math(False)  # names of bags, laws and mounts come from outside
     figure.savefig(path, dpi=110)
-    plt.close(figure)

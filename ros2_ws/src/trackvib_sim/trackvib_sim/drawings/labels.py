@@ -6,6 +6,7 @@ What is drawn is taken from the picture itself: wherever neighbouring pixels dif
 from typing import NamedTuple
 
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from .technical_drawing import INK, TEXT, leader, text
 
@@ -40,9 +41,10 @@ class Labels:
 
     def write(self, figure):
         """Write all words, the first ones first; the figure's layout stays as it is from then on."""
-        figure.canvas.draw()
+        canvas = FigureCanvasAgg(figure)
+        canvas.draw()
         figure.set_layout_engine("none")
-        paper = _Paper(figure)
+        paper = _Paper(canvas)
         for label in self._labels:
             self._write(label, paper)
 
@@ -80,9 +82,9 @@ def _within(middles, size, region):
 class _Paper:
     """The pixels of a figure, rows from below."""
 
-    def __init__(self, figure):
-        self._renderer = figure.canvas.get_renderer()
-        pixels = np.asarray(figure.canvas.buffer_rgba())[::-1, :, :3].astype(int)
+    def __init__(self, canvas):
+        self._renderer = canvas.get_renderer()
+        pixels = np.asarray(canvas.buffer_rgba())[::-1, :, :3].astype(int)
         self.ink = np.zeros(pixels.shape[:2])
         for axis in (0, 1):
             differs = np.abs(np.diff(pixels, axis=axis)).max(axis=-1) > _DIFFERENT

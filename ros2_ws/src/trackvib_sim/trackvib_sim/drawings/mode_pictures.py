@@ -2,15 +2,11 @@
 
 from itertools import combinations, product
 
-import matplotlib
+import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
 
-matplotlib.use("Agg")  # files only: no display is needed
-
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from matplotlib.collections import LineCollection  # noqa: E402
-
-from ..rui.reference.placement import place_bodies  # noqa: E402
+from ..rui.reference.placement import place_bodies
 
 VIEWS = {"from the side": (0, 2), "from the rear": (1, 2)}  # which of x, y, z lie along the picture's axes
 COLUMNS = 3
@@ -31,7 +27,7 @@ def mode_pictures(model, modes, titles, path):
     path : path-like
     """
     rows = -(-len(modes) // COLUMNS)
-    figure = plt.figure(figsize=(4.8 * COLUMNS, 2.3 * rows), layout="constrained")
+    figure = Figure(figsize=(4.8 * COLUMNS, 2.3 * rows), layout="constrained")
     cells = figure.subfigures(rows, COLUMNS, squeeze=False).ravel()
     origin, arms = _boxes(model)
     at_rest = origin + arms
@@ -48,7 +44,6 @@ def mode_pictures(model, modes, titles, path):
             plot.autoscale()
             plot.axis("off")
     figure.savefig(path, dpi=110)
-    plt.close(figure)
 
 
 def _boxes(model):

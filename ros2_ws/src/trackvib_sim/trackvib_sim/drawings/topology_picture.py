@@ -7,17 +7,13 @@ draws a vehicle, by name or file, with the hull or another body as the transfer 
 
 import sys
 
-import matplotlib
+from matplotlib.figure import Figure
 
-matplotlib.use("Agg")  # files only: no display is needed
-
-import matplotlib.pyplot as plt  # noqa: E402
-
-from ..data import find_vehicle  # noqa: E402
-from ..rui.reference.placement import parent_rows  # noqa: E402
-from ..rui.reference.reroot import reroot  # noqa: E402
-from ..vehicle.body_tree import HULL, build_body_table, running_gear_kind  # noqa: E402
-from ..vehicle.vehicle_file import read_vehicle  # noqa: E402
+from ..data import find_vehicle
+from ..rui.reference.placement import parent_rows
+from ..rui.reference.reroot import reroot
+from ..vehicle.body_tree import HULL, build_body_table, running_gear_kind
+from ..vehicle.vehicle_file import read_vehicle
 
 STYLES = {"revolute": "-", "prismatic": "--", "locked": ":", "elastic": "-."}
 STEP = 2.2  # between generations, in the distance of two tips
@@ -27,7 +23,8 @@ def topology_picture(bodies, path):
     """Draw a table of bodies to a PNG file."""
     place = _layout(bodies)
     height = 1.0 + max(y for _, y in place)
-    figure, plot = plt.subplots(figsize=(9.0, 0.32 * height + 1.0), layout="constrained")
+    figure = Figure(figsize=(9.0, 0.32 * height + 1.0), layout="constrained")
+    plot = figure.subplots()
     for row, parent in enumerate(parent_rows(bodies)):
         body, (x, y) = bodies[row], place[row]
         if parent >= 0:
@@ -48,7 +45,6 @@ def topology_picture(bodies, path):
     plot.margins(x=0.08)
     plot.axis("off")
     figure.savefig(path, dpi=110)
-    plt.close(figure)
 
 
 def _layout(bodies):

@@ -2,15 +2,11 @@
 
 from itertools import pairwise
 
-import matplotlib
+import numpy as np
+from matplotlib.figure import Figure
 
-matplotlib.use("Agg")  # files only: no display is needed
-
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-from ..analysis.sensor_style import COLOURS  # noqa: E402
-from ..vehicle.body_tree import (  # noqa: E402
+from ..analysis.sensor_style import COLOURS
+from ..vehicle.body_tree import (
     FRONT,
     LEFT,
     POWERTRAIN,
@@ -26,11 +22,11 @@ from ..vehicle.body_tree import (  # noqa: E402
     sprung_bodies,
     wheel_name,
 )
-from ..vehicle.running_gear_parameters import at_stations  # noqa: E402
-from .assembled_vehicle import assemble_vehicle  # noqa: E402
-from .labels import Labels  # noqa: E402
-from .sprocket_drawing import sprocket_entry, tooth_profile  # noqa: E402
-from .technical_drawing import (  # noqa: E402
+from ..vehicle.running_gear_parameters import at_stations
+from .assembled_vehicle import assemble_vehicle
+from .labels import Labels
+from .sprocket_drawing import sprocket_entry, tooth_profile
+from .technical_drawing import (
     BACK,
     FAINT,
     INK,
@@ -48,7 +44,7 @@ from .technical_drawing import (  # noqa: E402
     spring,
     text,
 )
-from .vehicle_views import (  # noqa: E402
+from .vehicle_views import (
     FROM_LEFT,
     boxes,
     from_above,
@@ -75,7 +71,7 @@ def vehicle_picture(vehicle, path):
         The links do not close round the running gear.
     """
     assembled, labels = assemble_vehicle(vehicle), Labels()
-    figure = plt.figure(figsize=(15, 11), dpi=110, layout="constrained")
+    figure = Figure(figsize=(15, 11), dpi=110, layout="constrained")
     upper, lower = figure.subfigures(2, 1, height_ratios=(1.4, 1.0))
     _from_the_left(upper.subplots(), assembled, labels)
     rear, above, entry = lower.subplots(1, 3, width_ratios=(1.1, 0.85, 1.15))
@@ -84,7 +80,6 @@ def vehicle_picture(vehicle, path):
     sprocket_entry(entry, assembled, labels)
     labels.write(figure)
     figure.savefig(path, bbox_inches="tight", pad_inches=0.15)
-    plt.close(figure)
 
 
 def _from_the_left(plot, assembled, labels):

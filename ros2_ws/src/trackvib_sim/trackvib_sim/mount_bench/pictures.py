@@ -1,11 +1,9 @@
 """Loops of a mount as pictures: force over displacement and over velocity."""
 
-import matplotlib
-
-matplotlib.use("Agg")  # files only: no display is needed
-
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 KILO = 1e3
 
@@ -22,7 +20,6 @@ def loops_picture(loops, title, path):
         row[0].set_ylabel(f"{frequency:g} Hz\nforce, kN")
     _explain(plots, colours)
     figure.savefig(path, dpi=110)
-    plt.close(figure)
 
 
 def fit_picture(loops, force, title, path):
@@ -39,12 +36,12 @@ def fit_picture(loops, force, title, path):
     plots[0, 0].legend(lines[:2], names[:2], fontsize=8)
     _explain(plots, {})
     figure.savefig(path, dpi=110)
-    plt.close(figure)
 
 
 def _sheet(rows, title):
     size = 12.0, 1.0 + 2.6 * rows
-    figure, plots = plt.subplots(rows, 2, figsize=size, sharex="col", squeeze=False, layout="constrained")
+    figure = Figure(figsize=size, layout="constrained")
+    plots = figure.subplots(rows, 2, sharex="col", squeeze=False)
     figure.suptitle(title)
     return figure, plots
 
@@ -55,7 +52,7 @@ def _draw(row, loop, force, **style):
 
 
 def _colours(currents):
-    shades = plt.get_cmap("viridis")(np.linspace(0.0, 0.9, len(currents)))
+    shades = colormaps["viridis"](np.linspace(0.0, 0.9, len(currents)))
     return dict(zip(currents, shades, strict=True))
 
 
@@ -65,5 +62,5 @@ def _explain(plots, colours):
     for plot, name in zip(plots[-1], ("displacement, mm", "velocity, m/s"), strict=True):
         plot.set_xlabel(name)
     if colours:
-        lines = [plt.Line2D([], [], color=colour) for colour in colours.values()]
+        lines = [Line2D([], [], color=colour) for colour in colours.values()]
         plots[0, 0].legend(lines, [f"{current:g} A" for current in colours], fontsize=8, ncols=2)

@@ -1,16 +1,12 @@
 """A road as a picture: its profile, and its PSD beside the classes of ISO 8608."""
 
-import matplotlib
+import numpy as np
+from matplotlib.figure import Figure
+from mr_mount_controller.node_base.plain_text import plain_line
 
-matplotlib.use("Agg")  # files only: no display is needed
-
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from mr_mount_controller.node_base.plain_text import plain_line  # noqa: E402
-
-from ..road.classes import CLASSES  # noqa: E402
-from ..road.iso8608 import roughness_of  # noqa: E402
-from .measures import FITTED, psd, smoothed  # noqa: E402
+from ..road.classes import CLASSES
+from ..road.iso8608 import roughness_of
+from .measures import FITTED, psd, smoothed
 
 COLOURS = {"left": "#1f5fa8", "right": "#d1662b"}
 _FREQUENCIES, _DENSITIES = (0.005, 10.0), (1e-10, 1e2)  # 1/m, m^3; of the axes
@@ -20,7 +16,8 @@ _MOST_DRAWN = 20_000  # samples of a profile
 def road_picture(distance, heights, title, file):
     """Draw heights (2, n) [m] over distance (n,) [m] to a PNG file."""
     spacing = distance[1] - distance[0]
-    figure, (profile, spectrum) = plt.subplots(1, 2, figsize=(13.0, 5.0), width_ratios=(1.4, 1.0), layout="constrained")
+    figure = Figure(figsize=(13.0, 5.0), layout="constrained")
+    profile, spectrum = figure.subplots(1, 2, width_ratios=(1.4, 1.0))
     figure.suptitle(plain_line(title), fontsize=12, parse_math=False)  # a file's name comes from outside
     step = max(1, len(distance) // _MOST_DRAWN)
     frequency = np.geomspace(*FITTED, 50)
@@ -41,4 +38,3 @@ def road_picture(distance, heights, title, file):
     if profile.get_legend_handles_labels()[0]:
         profile.legend()
     figure.savefig(file, dpi=110, format="png")
-    plt.close(figure)

@@ -1,21 +1,18 @@
 """A recorded run as an animated picture (GIF), for documents."""
 
-import matplotlib
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.figure import Figure
+from PIL import Image
 
-matplotlib.use("Agg")  # files only: no display is needed
-
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from matplotlib.collections import LineCollection, PolyCollection  # noqa: E402
-from PIL import Image  # noqa: E402
-
-from ..analysis.sensor_style import COLOURS  # noqa: E402
-from ..console import followed  # noqa: E402
-from ..numerics.units import NANO  # noqa: E402
-from ..scene.colours import DAMPED, POWERTRAIN_SHADE, SENSORS, of_load  # noqa: E402
-from ..vehicle.system import Operation, build_system  # noqa: E402
-from .painter import Painter  # noqa: E402
-from .road import strips_of  # noqa: E402
+from ..analysis.sensor_style import COLOURS
+from ..console import followed
+from ..numerics.units import NANO
+from ..scene.colours import DAMPED, POWERTRAIN_SHADE, SENSORS, of_load
+from ..vehicle.system import Operation, build_system
+from .painter import Painter
+from .road import strips_of
 
 MOST_FRAMES = 400
 _SIZE, _DPI = (6.4, 4.6), 100  # inches; pixels an inch
@@ -40,20 +37,18 @@ def animated_picture(recording, vehicle, motion, path, console):
     strips = strips_of(recording, vehicle, motion.way) if recording.road else None
     painter = Painter(vehicle, build_system(vehicle, Operation(0.0, 0.0, False), _STEP), strips)
     loads = _loads(recording, motion, painter.mounts)
-    figure = plt.figure(figsize=_SIZE, dpi=_DPI)
-    try:
-        stage = figure.add_axes((0.0, 0.29, 1.0, 0.71))
-        cursors = _curves(figure, recording, motion, painter.mounts)
-        pictures = []
-        frames = list(zip(motion.time, motion.poses, loads, strict=True))
-        for time, pose, load in followed(frames, "drawing", console):
-            _draw(stage, painter.paint(pose, load), f"{vehicle.name}   t = {time / NANO:.2f} s")
-            for cursor in cursors:
-                cursor.set_xdata([time / NANO] * 2)
-            figure.canvas.draw()
-            pictures.append(Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[..., :3]))
-    finally:
-        plt.close(figure)
+    figure = Figure(figsize=_SIZE, dpi=_DPI)
+    canvas = FigureCanvasAgg(figure)
+    stage = figure.add_axes((0.0, 0.29, 1.0, 0.71))
+    cursors = _curves(figure, recording, motion, painter.mounts)
+    pictures = []
+    frames = list(zip(motion.time, motion.poses, loads, strict=True))
+    for time, pose, load in followed(frames, "drawing", console):
+        _draw(stage, painter.paint(pose, load), f"{vehicle.name}   t = {time / NANO:.2f} s")
+        for cursor in cursors:
+            cursor.set_xdata([time / NANO] * 2)
+        canvas.draw()
+        pictures.append(Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3]))
     palette = _palette(pictures[len(pictures) // 2])
     first, *others = (each.quantize(palette=palette, dither=Image.Dither.NONE) for each in pictures)
     span = float(motion.time[-1] - motion.time[0]) / NANO / max(len(pictures) - 1, 1)

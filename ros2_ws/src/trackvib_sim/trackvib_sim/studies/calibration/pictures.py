@@ -1,17 +1,13 @@
 """Pictures of a calibration: how the search went, and how sensitive the table is."""
 
-import matplotlib
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
-matplotlib.use("Agg")  # files only: no display is needed
-
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from matplotlib.ticker import MaxNLocator  # noqa: E402
-
-from ..paper.paper_table import SENSORS, error_factor  # noqa: E402
-from ..paper.table1_picture import AXES  # noqa: E402
-from .objective import typical_excess  # noqa: E402
-from .sensitivity import PER  # noqa: E402
+from ..paper.paper_table import SENSORS, error_factor
+from ..paper.table1_picture import AXES
+from .objective import typical_excess
+from .sensitivity import PER
 
 _WIDE = 6  # panels side by side
 
@@ -20,7 +16,7 @@ def convergence_picture(file, plan, candidates):
     """Draw objective and parameters of `calibration_history.Candidate`s in their order to a PNG file."""
     count = len(plan.parameters)
     deep = -(-count // _WIDE)
-    figure = plt.figure(figsize=(14, 3.2 + 1.8 * deep), layout="constrained")
+    figure = Figure(figsize=(14, 3.2 + 1.8 * deep), layout="constrained")
     grid = figure.add_gridspec(deep + 1, _WIDE, height_ratios=[1.8, *[1.0] * deep])
     objective = np.array([candidate.objective for candidate in candidates])
     number = np.arange(1, len(candidates) + 1)
@@ -50,7 +46,6 @@ def convergence_picture(file, plan, candidates):
         panel.tick_params(which="both", labelsize=7)
     figure.suptitle("Calibration: dark is good, the ring is the best; panels reach from bound to bound", fontsize=12)
     figure.savefig(file, dpi=110, format="png")
-    plt.close(figure)
 
 
 def frontier_picture(file, history):
@@ -60,7 +55,8 @@ def frontier_picture(file, history):
     ]
     factor = np.array([error_factor(each.ratios, 1.0) for each in good])
     excess = np.array([typical_excess(each.resistance) for each in good])
-    figure, plot = plt.subplots(figsize=(8.0, 5.6), layout="constrained")
+    figure = Figure(figsize=(8.0, 5.6), layout="constrained")
+    plot = figure.subplots()
     plot.plot(excess, factor, ".", color="0.65", label="candidate")
     order = np.lexsort((factor, excess))
     best = np.minimum.accumulate(factor[order])
@@ -75,7 +71,6 @@ def frontier_picture(file, history):
     plot.grid(alpha=0.3)
     plot.legend()
     figure.savefig(file, dpi=110, format="png")
-    plt.close(figure)
 
 
 def sensitivity_picture(file, plan, rows, sensitive):
@@ -84,7 +79,8 @@ def sensitivity_picture(file, plan, rows, sensitive):
     change = 100.0 * sensitive.change[order]
     limit = np.nanpercentile(np.abs(change), 99)
     size = 4.0 + 1.44 * count, max(4.0, 2.4 + 0.26 * len(order))
-    figure, panels = plt.subplots(1, 6, figsize=size, sharey=True, layout="constrained")
+    figure = Figure(figsize=size, layout="constrained")
+    panels = figure.subplots(1, 6, sharey=True)
     for column, panel in enumerate(panels):
         image = panel.imshow(change[:, :, column], cmap="RdBu_r", vmin=-limit, vmax=limit, aspect="auto")
         panel.set_facecolor("0.6")  # where a run failed
@@ -99,4 +95,3 @@ def sensitivity_picture(file, plan, rows, sensitive):
     title = "Sensitivity at the calibrated set, the strongest parameter first; grey: a run failed"
     figure.suptitle(title + noise, fontsize=12)
     figure.savefig(file, dpi=110, format="png")
-    plt.close(figure)

@@ -1,12 +1,9 @@
 """The controller study as a picture: constant currents as a curve, every law as a point at its mean current."""
 
-import matplotlib
+from matplotlib import colormaps
+from matplotlib.figure import Figure
 
-matplotlib.use("Agg")  # files only: no display is needed
-
-import matplotlib.pyplot as plt  # noqa: E402
-
-from .scenario import QUANTITIES, SCENARIOS  # noqa: E402
+from .scenario import QUANTITIES, SCENARIOS
 
 DRAWN = ("powertrain", "powertrain_wk", "force", "travel")
 
@@ -15,11 +12,10 @@ def controllers_picture(rows, file):
     """Draw rows (`controllers_table.Row`) to a PNG file, a column a scenario and a row a quantity."""
     scenarios = list(dict.fromkeys(row.scenario for row in rows))
     laws = sorted({row.law for row in rows if row.current is None})
-    colours = dict(zip(laws, plt.get_cmap("tab10").colors * (len(laws) // 10 + 1), strict=False))
+    colours = dict(zip(laws, colormaps["tab10"].colors * (len(laws) // 10 + 1), strict=False))
     size = (3.4 * len(scenarios) + 0.8, 2.5 * len(DRAWN) + 1.0)
-    figure, panels = plt.subplots(
-        len(DRAWN), len(scenarios), figsize=size, squeeze=False, sharex=True, layout="constrained"
-    )
+    figure = Figure(figsize=size, layout="constrained")
+    panels = figure.subplots(len(DRAWN), len(scenarios), squeeze=False, sharex=True)
     for line, quantity in zip(panels, DRAWN, strict=True):
         for panel, scenario in zip(line, scenarios, strict=True):
             _panel(panel, [row for row in rows if row.scenario == scenario], quantity, colours)
@@ -33,7 +29,6 @@ def controllers_picture(rows, file):
                for each, label in zip(*panel.get_legend_handles_labels(), strict=True)}  # fmt: skip
     figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=5, fontsize=9)
     figure.savefig(file, dpi=100, format="png")
-    plt.close(figure)
 
 
 def _panel(panel, rows, quantity, colours):

@@ -1,16 +1,12 @@
 """The M113 study as a picture: third octaves, lines and the road-borne part, ours and the reference's."""
 
-import matplotlib
+import numpy as np
+from matplotlib.figure import Figure
 
-matplotlib.use("Agg")  # files only: no display is needed
-
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-from .case import places, road_borne  # noqa: E402
-from .measures import LINES, THIRD_OCTAVES, line_name, octave_name  # noqa: E402
-from .reference import ROUGH, references  # noqa: E402
-from .variants import BASE  # noqa: E402
+from .case import places, road_borne
+from .measures import LINES, THIRD_OCTAVES, line_name, octave_name
+from .reference import ROUGH, references
+from .variants import BASE
 
 OURS, THEIRS = "C0", "0.35"
 SHOWN = 25.0  # m of the road-borne part
@@ -19,7 +15,8 @@ SHOWN = 25.0  # m of the road-borne part
 def m113_picture(rows, found, file):
     """Draw rows (`table.Row`) and the road-borne parts of results (dict of cases) to a PNG file."""
     cases = list(dict.fromkeys((row.road, row.speed) for row in rows))
-    figure, panels = plt.subplots(3, len(cases), figsize=(3.6 * len(cases), 8.0), layout="constrained")
+    figure = Figure(figsize=(3.6 * len(cases), 8.0), layout="constrained")
+    panels = figure.subplots(3, len(cases))
     by_name = {(row.quantity, row.road, row.speed): row for row in rows if row.variant == BASE}
     for column, case in zip(panels.T, cases, strict=True):
         _levels(column[0], THIRD_OCTAVES, [by_name[(octave_name(c), *case)] for c in THIRD_OCTAVES])
@@ -39,7 +36,6 @@ def m113_picture(rows, found, file):
     handles, labels = panels[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=2, fontsize=9)
     figure.savefig(file, dpi=100, format="png")
-    plt.close(figure)
 
 
 def _levels(panel, places_, rows):

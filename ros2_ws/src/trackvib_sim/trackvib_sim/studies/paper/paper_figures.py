@@ -5,16 +5,13 @@ Accelerations in body axes; labels name the paper's axes as well (paper X, Y, Z 
 
 from itertools import pairwise, product
 
-import matplotlib
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.figure import Figure
 
-matplotlib.use("Agg")  # files only: no display is needed
-
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-from ...analysis.sensor_style import COLOURS  # noqa: E402
-from ...analysis.vibration import psd  # noqa: E402
-from ...road.iso8608 import HIGHEST, LOWEST, SPACING, roughness_of  # noqa: E402
+from ...analysis.sensor_style import COLOURS
+from ...analysis.vibration import psd
+from ...road.iso8608 import HIGHEST, LOWEST, SPACING, roughness_of
 
 AXES = ("longitudinal x (paper X)", "lateral y (paper Z)", "vertical z (paper Y)")
 VERTICAL = 2
@@ -112,7 +109,7 @@ def level_picture(file, title, classes, speeds, levels):
     `levels` maps a sensor to an array (classes, speeds, 3) [m/s^2] with nan where there is none.
     """
     figure, plots = _figure(title, (13, 7.5), len(levels), 3, sharex=True, sharey="col")
-    colours = plt.get_cmap("viridis")(np.linspace(0.0, 0.9, len(classes)))
+    colours = colormaps["viridis"](np.linspace(0.0, 0.9, len(classes)))
     for row, (sensor, values) in zip(plots, levels.items(), strict=True):
         for axis, plot in enumerate(row):
             for number, (road_class, colour) in enumerate(zip(classes, colours, strict=True)):
@@ -133,7 +130,7 @@ def solver_picture(file, title, rate, force, levels):
 
     `force` maps a solver to a dict of sensor -> accelerations (k, 3) [m/s^2], `levels` likewise to RMS values (3,).
     """
-    figure = plt.figure(figsize=(14, 7), layout="constrained")
+    figure = Figure(figsize=(14, 7), layout="constrained")
     figure.suptitle(title, fontsize=11)
     left, right = figure.subfigures(1, 2, width_ratios=(1.6, 1.0))
     first, second = force
@@ -158,7 +155,8 @@ def solver_picture(file, title, rate, force, levels):
 
 
 def _figure(title, size, *shape, **sharing):
-    figure, plots = plt.subplots(*shape, figsize=size, layout="constrained", **sharing)
+    figure = Figure(figsize=size, layout="constrained")
+    plots = figure.subplots(*shape, **sharing)
     figure.suptitle(title, fontsize=11)
     return figure, plots
 
@@ -192,4 +190,3 @@ def _mark(plot, frequency, label, colour, style, side):
 
 def _save(figure, file):
     figure.savefig(file, dpi=110, format="png")
-    plt.close(figure)

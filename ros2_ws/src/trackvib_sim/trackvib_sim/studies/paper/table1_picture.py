@@ -1,16 +1,13 @@
 """The table study as a picture: levels over road classes, ours with scatter and the paper's."""
 
-import matplotlib
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
 
-matplotlib.use("Agg")  # files only: no display is needed
-
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from matplotlib.lines import Line2D  # noqa: E402
-from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter  # noqa: E402
-
-from ..case import BAND  # noqa: E402
-from .paper_table import SENSORS  # noqa: E402
+from ..case import BAND
+from .paper_table import SENSORS
 
 AXES = ("longitudinal X", "vertical Y", "lateral Z")
 SPREAD = 0.24  # of the distance between two classes, over which the speeds of one are spread
@@ -20,9 +17,10 @@ def table_picture(rows, paper, seeds, file):
     """Draw rows (`paper_table.Row`) and the paper's values ((class, speed) -> (6,)) beside them to a PNG file."""
     classes = sorted({row.road_class for row in rows})
     speeds = sorted({row.speed for row in rows})
-    colours = plt.get_cmap("viridis")(np.linspace(0.08, 0.82, len(speeds)))
+    colours = colormaps["viridis"](np.linspace(0.08, 0.82, len(speeds)))
     shifts = np.linspace(-SPREAD, SPREAD, len(speeds)) if len(speeds) > 1 else np.zeros(1)
-    figure, panels = plt.subplots(2, 3, figsize=(13, 7.5), sharex=True, sharey=True, layout="constrained")
+    figure = Figure(figsize=(13, 7.5), layout="constrained")
+    panels = figure.subplots(2, 3, sharex=True, sharey=True)
     for column, panel in enumerate(panels.ravel()):
         for speed, colour, shift in zip(speeds, colours, shifts, strict=True):
             mine = [row for row in rows if row.speed == speed]
@@ -41,7 +39,6 @@ def table_picture(rows, paper, seeds, file):
     figure.suptitle(f"RMS accelerations beside Table 1 of [Tao2025]: {band}, paper axes, {runs}", fontsize=12)
     figure.legend(handles=_legend(speeds, colours), loc="outside lower center", ncols=len(speeds) + 3, fontsize=9)
     figure.savefig(file, dpi=110, format="png")
-    plt.close(figure)
 
 
 def _ours(panel, place, rows, column, colour):

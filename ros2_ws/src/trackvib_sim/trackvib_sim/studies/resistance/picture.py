@@ -1,14 +1,10 @@
 """Running resistance over speed as a picture, the heat of each part of the vehicle on top of the other."""
 
-import matplotlib
+import numpy as np
+from matplotlib.figure import Figure
 
-matplotlib.use("Agg")  # files only: no display is needed
-
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-from ..case import GOOD  # noqa: E402
-from .table import SINKS, force, published  # noqa: E402
+from ..case import GOOD
+from .table import SINKS, force, published
 
 KILO = 1e3
 
@@ -17,7 +13,8 @@ def resistance_picture(found, mass, title, file):
     """Draw a dict of cases and results of a vehicle of a mass [kg] to a PNG file."""
     good = {case.speed: result for case, result in found.items() if result.status == GOOD}
     speed = np.array(list(good))
-    figure, (forces, powers) = plt.subplots(1, 2, figsize=(12.0, 5.6), layout="constrained")
+    figure = Figure(figsize=(12.0, 5.6), layout="constrained")
+    forces, powers = figure.subplots(1, 2)
     figure.suptitle(title)
     for plot, unit, of_speed in ((forces, "force, kN", speed), (powers, "power, kW", np.ones(len(speed)))):
         heat = np.array([[result.heat[name] for name in SINKS] for result in good.values()]).reshape(-1, len(SINKS))
@@ -33,4 +30,3 @@ def resistance_picture(found, mass, title, file):
         plot.grid(alpha=0.3)
     figure.legend(*forces.get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize=8)
     figure.savefig(file, dpi=110, format="png")
-    plt.close(figure)
