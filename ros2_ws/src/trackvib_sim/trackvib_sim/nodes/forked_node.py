@@ -6,6 +6,7 @@ import multiprocessing
 import os
 import signal
 import sys
+from contextlib import suppress
 
 # Executables by name, and the modules whose `main` each runs.
 MODULES = {
@@ -60,6 +61,8 @@ class ForkedNode:
 
 def _wait_and_run(name, arguments):
     begin_program(name)
+    with suppress(ImportError):  # told below, where there is a log
+        importlib.import_module(MODULES[name])  # while the arguments are on their way
     words, log = arguments.recv()
     run_program(lambda: importlib.import_module(MODULES[name]).main(), [name, *words], log)
 
