@@ -1,16 +1,30 @@
-"""The folder of compiled kernels that this user can use.
+"""What compiled kernels depend on, and the folder of them that this user can use.
 
 numba wants to write where it reads, even if all is compiled already. A checkout that somebody else has set up, or one
 on a read-only disk, gets its kernels copied, once, to a folder of this user's own.
 """
 
 import os
+import re
 import shutil
 import tempfile
 from pathlib import Path
 
 from environment import steps
 from environment.own_folder import own_folder
+
+_WITH_KERNELS = re.compile(r"^from \S*compiled import", re.MULTILINE)
+
+
+def sources(package: Path) -> list:
+    """Every module in the rooms of `package` that have kernels in them.
+
+    numba looks only at the file of a compiled function, not at those of the functions, constants and records that it
+    was made with; these are in the same rooms.
+    """
+    modules = sorted(package.rglob("*.py"))
+    rooms = {path.relative_to(package).parts[0] for path in modules if _WITH_KERNELS.search(path.read_text("utf-8"))}
+    return [path for path in modules if path.relative_to(package).parts[0] in rooms]
 
 
 def usable(kernels: Path, environ) -> Path:

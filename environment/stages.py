@@ -15,7 +15,7 @@ from typing import NamedTuple
 from environment import SetupError, activate, network
 from environment import ros as ros2
 from environment.extras import Extra
-from environment.kernels import usable
+from environment.kernels import sources, usable
 from environment.places import Places
 from environment.ros import Ros
 from environment.steps import Task, fingerprint
@@ -65,7 +65,8 @@ def plan(setup: Setup, extras: tuple) -> list:
     venv = fingerprint([str(places.root), list(python), str(ros.prefix), _hash(setup.lock_file), _hash(Path(__file__))])
     includes = _hash(places.environment / "wheel_includes.cmake")
     workspace = fingerprint([venv, includes, [_workspace_sources(folder) for folder in _packages(places, ros)]])
-    kernels = fingerprint([venv, _python_sources(places.sources / "trackvib_sim" / "trackvib_sim")])
+    compiled = sources(places.sources / "trackvib_sim" / "trackvib_sim")
+    kernels = fingerprint([venv, [[str(path), _hash(path)] for path in compiled]])
     return [
         Stage("packages", f"setting up (once): {packages}", "about 1 min with a fast network", places.venv, venv,
               lambda task: _make_venv(setup, task)),
@@ -218,11 +219,6 @@ def _workspace_sources(folder: Path) -> list:
             if decisive or path.suffix != ".pyc":
                 found.append([str(path.relative_to(folder)), _hash(path) if decisive else None])
     return found
-
-
-def _python_sources(folder: Path) -> list:
-    """Every module under `folder`, with its hash."""
-    return [[str(path.relative_to(folder)), _hash(path)] for path in sorted(folder.rglob("*.py"))]
 
 
 def _hash(path: Path) -> str | None:
