@@ -10,6 +10,7 @@ from multiprocessing import resource_tracker
 import dask
 from dask.system import CPU_COUNT
 from distributed import CancelledError, Client, KilledWorker, LocalCluster, Security, TimeoutError, rpc, wait
+from distributed.utils import get_mp_context
 
 from .case import drive
 from .case_store import program
@@ -19,6 +20,8 @@ LONG_PATIENCE = 30.0  # s for a worker that died to be started again
 _NOISY = ("distributed", "distributed.client", "tornado.application", "tornado.general")
 # scheduler and workers always have an HTTP server; without routes it has nothing to tell
 _NO_PAGES = {"distributed.scheduler.http.routes": [], "distributed.worker.http.routes": []}
+# workers are forked from a process that has loaded once what all of them need
+_FORKED = {"distributed.worker.multiprocessing-method": "forkserver"}
 _SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
@@ -107,7 +110,8 @@ def _local(workers):
     resource_tracker.ensure_running()
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
     try:
-        with dask.config.set(_NO_PAGES):
+        with dask.config.set(_NO_PAGES | _FORKED):
+            get_mp_context().set_forkserver_preload(["distributed", "trackvib_sim.studies.case"])
             return LocalCluster(
                 n_workers=workers,
                 threads_per_worker=1,
