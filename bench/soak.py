@@ -14,7 +14,9 @@ import tempfile
 import click
 from machine import machine
 from rich.progress import Progress
-from trackvib_sim.nodes.processes import FOUR_PROCESSES, LoopProcesses, closed_loop_parameters
+from trackvib_sim.nodes.loop_arguments import CONTROLLER, NODES, ROAD, SIMULATOR, closed_loop_parameters
+from trackvib_sim.nodes.node_parameters import NodeParameters
+from trackvib_sim.nodes.processes import FOUR_PROCESSES, LoopProcesses
 from trackvib_sim.nodes.watch import Watch
 from trackvib_sim.simulation.lockstep import OUTCOMES
 
@@ -38,13 +40,13 @@ def wait_for_end(processes, exchanges):
 @click.option("--road", default="C", show_default=True)
 def main(exchanges, road):
     print(machine())
-    overrides = {
-        "simulator": {"duration": exchanges / RATE, "wait_for_recorder": False},
-        "controller": {"law": "skyhook", "wait_for_recorder": False},
-        "road_excitation": {"road": road},
-    }
+    parameters = NodeParameters(NODES)
+    parameters.read(closed_loop_parameters())
+    parameters.give(SIMULATOR, duration=exchanges / RATE, wait_for_recorder=False)
+    parameters.give(CONTROLLER, law="skyhook", wait_for_recorder=False)
+    parameters.give(ROAD, road=road)
     with LoopProcesses(PROCESSES) as processes, tempfile.TemporaryDirectory() as logs:
-        processes.start(closed_loop_parameters(), overrides, logs)
+        processes.start(parameters, logs)
         reported = wait_for_end(processes, exchanges)
         codes = processes.stop()
         said = {name: processes.last_words(name) for name in PROCESSES}

@@ -14,7 +14,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 from trackvib_sim.bags.reading import read_recording
-from trackvib_sim.nodes.processes import closed_loop_parameters
+from trackvib_sim.nodes.loop_arguments import closed_loop_parameters
 from trackvib_sim.view.motion import Span, read_motion
 from trackvib_sim.view.recorded_poses import read_recorded_poses
 from visualization_msgs.msg import Marker, MarkerArray

@@ -3,6 +3,8 @@
 One loader for all: vehicle files, calibration plans, a bag's metadata and what its topics declare.
 """
 
+import re
+
 import yaml
 from mr_mount_controller.node_base.plain_text import readable, shortened
 from pydantic import ValidationError
@@ -124,3 +126,9 @@ class _Loader(yaml.SafeLoader):
         if node.tag == "tag:yaml.org,2002:int" and len(node.value) > LONGEST_NUMBER:
             raise yaml.YAMLError(f"a number of {len(node.value)} characters, accepted are {LONGEST_NUMBER}")
         return node
+
+
+# YAML 1.2 and ROS 2 take 1e3 for a number, PyYAML alone for a text
+_Loader.add_implicit_resolver(
+    "tag:yaml.org,2002:float", re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)[eE][-+]?[0-9]+"), list("-+.0123456789")
+)

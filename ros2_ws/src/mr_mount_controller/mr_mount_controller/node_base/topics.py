@@ -1,4 +1,4 @@
-"""Topics, their types and frames, in one place. Relative names can be remapped and put into a namespace."""
+"""Topics, their types and frames, in one place. All names are relative: a namespace holds a whole vehicle."""
 
 from typing import NamedTuple
 
@@ -17,10 +17,10 @@ ROAD_PROFILE = "road_profile"
 VEHICLE_DESCRIPTION = "vehicle_description"
 RECORDED = "recorder/recorded"
 RECORDED_ANSWERS = "recorder/recorded_answers"
-CLOCK = "/clock"
-DIAGNOSTICS = "/diagnostics"
-TF = "/tf"
-TF_STATIC = "/tf_static"
+CLOCK = "clock"
+DIAGNOSTICS = "diagnostics"
+TF = "tf"
+TF_STATIC = "tf_static"
 JOINT_STATES = "joint_states"
 ROBOT_DESCRIPTION = "robot_description"
 TRACK_LINKS = "track_links"

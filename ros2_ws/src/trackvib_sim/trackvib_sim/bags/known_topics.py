@@ -31,7 +31,7 @@ COLUMNS = {
 }  # fmt: skip
 NEEDED = (topics.CHASSIS_IMU, topics.POWERTRAIN_IMU)
 RARE = {  # read message by message
-    topics.DIAGNOSTICS.removeprefix("/"): topics.DIAGNOSTICS_TYPE,
+    topics.DIAGNOSTICS: topics.DIAGNOSTICS_TYPE,
     topics.VEHICLE_DESCRIPTION: topics.VEHICLE_DESCRIPTION_TYPE,
     topics.DRIVE_DESCRIPTION: topics.DRIVE_DESCRIPTION_TYPE,
     topics.MOUNT_DESCRIPTION: topics.MOUNT_DESCRIPTION_TYPE,

@@ -9,21 +9,22 @@ from .run import run_loop
 from .view import Served
 
 
-def run_with_view(choices, out):
+def run_with_view(choosing, out):
     """Do a run as `run.run_loop` does, and show it; its view stays until Ctrl-C. Raises as that does."""
-    run_loop(choices, out, lambda vehicle: _live_view(vehicle, choices.title, Terminal()))
+    run_loop(choosing, out, lambda choices, vehicle: _live_view(choices, vehicle, Terminal()))
 
 
 @contextmanager
-def _live_view(vehicle, title, console):
+def _live_view(choices, vehicle, console):
     """Serve the view of a run of a vehicle (`parameters.Vehicle`) that is done within the block, until Ctrl-C."""
     try:
         from ..view.live import live_pieces
     except ImportError as error:
         raise CommandError(str(error)) from None
-    over = threading.Event()
+    over, title = threading.Event(), choices.title
+    pieces = live_pieces(vehicle, title, choices.namespace, over.is_set)
     with Served(0, title, console) as served:
-        thread = threading.Thread(target=served.show, args=(live_pieces(vehicle, title, over.is_set),), daemon=True)
+        thread = threading.Thread(target=served.show, args=(pieces,), daemon=True)
         thread.start()
         try:
             yield

@@ -18,10 +18,11 @@ from ..bags.samples import paired_samples
 from ..bags.writing import BagWriter
 from ..console import followed
 from ..nodes.controller_trial import ControllerTrial
-from ..nodes.processes import closed_loop_parameters
+from ..nodes.loop_arguments import CONTROLLER, closed_loop_parameters
+from ..nodes.node_parameters import NodeParameters
 from ..numerics.units import NANO
+from .own_domain import own_domain
 from .result_folder import CommandError, all_or_nothing
-from .run import own_domain
 
 _GAP = 2.5  # times the median step
 REPLAYED = "/replayed/current"  # topic of the new answers
@@ -147,8 +148,10 @@ def _controller(stock, law, rate, folder):
         yield lambda: None, lambda: ""
         return
     (folder / "log").mkdir()
-    given = {"controller": {"law": law, "sample_rate": rate, "wait_for_recorder": False}}
-    stock.start(closed_loop_parameters(), given, folder / "log")
+    parameters = NodeParameters([CONTROLLER])
+    parameters.read(closed_loop_parameters())
+    parameters.give(CONTROLLER, law=law, sample_rate=rate, wait_for_recorder=False)
+    stock.start(parameters, folder / "log")
 
     def check():
         if stock.ended():

@@ -1,65 +1,30 @@
 """One run of the closed loop from the command line: processes, progress, and what the bag then tells."""
 
-import os
 import re
 import signal
-import socket
-from contextlib import contextmanager, nullcontext
-from dataclasses import dataclass
+from contextlib import nullcontext
 from datetime import datetime
-from math import isfinite
 from pathlib import Path
 
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-from ..analysis.segments import SHORTEST_MEASURING
-from ..analysis.settling import SHORTEST_SETTLING, VEHICLE_BEHIND, settling_time
 from ..bags.errors import BagError
 from ..console import Description, Terminal
-from ..data import find_vehicle
-from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses, closed_loop_parameters
-from ..road_sources.road_file import RoadError, find_road, road_in_words, whole_name
-from ..vehicle.drive.drive_file import DriveFileError, drive_text, parse_drive
-from ..vehicle.drive.schedule import arrival_time
+from ..nodes.loop_arguments import RECORDER
+from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses
 from ..vehicle.step_size import recommended_rate
-from ..vehicle.vehicle_file import VehicleFileError, read_vehicle
+from .own_domain import own_domain
 from .result_folder import CommandError, make_folder, writing_to
+from .run_choices import choose
 
-HIGHEST_DOMAIN = 232  # of ROS 2; beyond it DDS has no ports
-VIEW_RATE = 50  # Hz of simulated time
 _LOOK = 0.2  # s between looks at processes and progress
 
 
-@dataclass(frozen=True)
-class Choices:
-    """What the user chose."""
-
-    vehicle: str | None  # name or file; None for the default one
-    road: str  # class, or file
-    speed: float
-    drive: str | None  # file; then `speed` has no effect
-    gears: bool
-    duration: float
-    law: str
-    seed: int
-    physics_rate: int
-    one_process: bool
-    view: bool = False  # in a browser
-
-    @property
-    def title(self):
-        """The run in words."""
-        vehicle = f"vehicle {self.vehicle}, " if self.vehicle else ""
-        drive = f"{self.speed:g} m/s" if self.drive is None else f"drive {Path(self.drive).name}"
-        road = f"{road_in_words(self.road)}, {drive}{' in gears' if self.gears else ''}"
-        return f"{vehicle}{road}, law {self.law}, seed {self.seed}, {self.duration:g} s"
-
-
-def run_loop(choices, out, viewing=nullcontext):
+def run_loop(choosing, out, viewing=lambda _choices, _vehicle: nullcontext()):
     """Do a run; everything it leaves lies in one new folder, `out` or one named by time, road and speed.
 
-    `viewing` makes a context manager for the time of the run of a vehicle (`parameters.Vehicle`), entered once its
-    processes have been made.
+    `choosing` are the arguments of `run_choices.choose` by name. `viewing` makes a context manager for the time of the
+    run from its `Choices` and vehicle (`parameters.Vehicle`), entered once its processes have been made.
 
     Raises
     ------
@@ -69,29 +34,20 @@ def run_loop(choices, out, viewing=nullcontext):
     KeyboardInterrupt
         After the nodes have ended in order and what there is has been summarised.
     """
-    console, path = Terminal(), find_vehicle(choices.vehicle).absolute()
-    try:
-        vehicle, _ = read_vehicle(path)
-        tread = 2.0 * vehicle.road_wheels.y
-        settling = _settling(choices, find_road(choices.road, tread).begins)
-    except (RoadError, DriveFileError, VehicleFileError) as error:
-        raise CommandError(str(error)) from None
-    if choices.duration < settling + SHORTEST_MEASURING:
-        how = f"at {choices.speed:g} m/s" if choices.drive is None else f"with drive {choices.drive}"
-        raise CommandError(
-            f"--duration is {choices.duration:g} s, must be at least {settling + SHORTEST_MEASURING:.1f} s {how}: "
-            f"{settling:.1f} s to settle and {SHORTEST_MEASURING:g} s to measure"
-        )
-    with LoopProcesses(ONE_PROCESS if choices.one_process else FOUR_PROCESSES) as processes, viewing(vehicle):
-        with own_domain():
+    console = Terminal()
+    choices, parameters, vehicle, settling = choose(**choosing)
+    executables = ONE_PROCESS if choices.one_process else FOUR_PROCESSES
+    with LoopProcesses(executables) as processes, viewing(choices, vehicle):
+        with own_domain(choices.namespace):
             name = f"{datetime.now():%Y%m%dT%H%M%S}_{_short(choices.road)}_{_pace(choices)}"
             folder = make_folder(out or Path("runs") / name)
             with writing_to(folder):
                 (folder / "log").mkdir()
+            parameters.give(RECORDER, bag=str(folder / "bag"))
             console.print(f"closed loop: {choices.title}")
             if choices.physics_rate < (least := recommended_rate(vehicle)):
                 console.print(f"warning: --physics-rate {choices.physics_rate} is below the recommended {least} Hz")
-            interrupt = _run_nodes(processes, choices, path, tread, folder, console)
+            interrupt = _run_nodes(processes, choices, parameters, folder, console)
         _measure(choices, settling, folder, console, interrupt)
 
 
@@ -109,61 +65,12 @@ def _measure(choices, settling, folder, console, interrupt):
         raise interrupt
 
 
-def _settling(choices, begins):
-    """How long a run settles [s]: until all of the vehicle is on the road proper, which begins at a distance [m].
-
-    A vehicle that never gets there, for it stands, settles as shortly as any."""
-    if choices.drive is None:
-        return settling_time(choices.speed, begins)
-    arrival = arrival_time(parse_drive(drive_text(choices.drive), 0.0, choices.drive), begins + VEHICLE_BEHIND)
-    return max(arrival, SHORTEST_SETTLING) if isfinite(arrival) else SHORTEST_SETTLING
-
-
-@contextmanager
-def own_domain():
-    """Hold the ROS domain against further runs; raise `CommandError` if it is impossible or taken."""
-    from ..nodes.watch import Watch  # imported late: ROS 2 comes after the processes have been made
-
-    domain = os.environ.get("ROS_DOMAIN_ID") or "0"
-    if not (domain.isdecimal() and int(domain) <= HIGHEST_DOMAIN):
-        raise CommandError(f"ROS_DOMAIN_ID is {domain!r}, accepted is a whole number from 0 to {HIGHEST_DOMAIN}")
-    taken = CommandError(f"a simulator runs in ROS domain {domain} already; set another ROS_DOMAIN_ID")
-    # a name that the kernel frees with the process, however that ends
-    with socket.socket(socket.AF_UNIX) as claim:
-        try:
-            claim.bind(f"\0trackvib_run_in_domain_{int(domain)}")
-        except OSError:
-            raise taken from None
-        # a simulator that was started by hand is seen if it makes itself known in time
-        with Watch() as watch:
-            if watch.simulator_is_there():
-                raise taken
-        yield
-
-
-def _run_nodes(processes, choices, vehicle, tread, folder, console):
-    """Run the nodes to the end; returns the KeyboardInterrupt that cut them short, or None.
-
-    `vehicle` is the path of its file, `tread` the distance between its tracks [m].
-    """
-    overrides = {
-        "road_excitation": {"road": whole_name(choices.road), "seed": choices.seed, "track_distance": tread},
-        "controller": {"law": choices.law},
-        "recorder": {"bag": str(folder / "bag")},
-        "simulator": {
-            "vehicle_file": str(vehicle),
-            "physics_rate": choices.physics_rate,
-            "speed": float(choices.speed),
-            "drive": "" if choices.drive is None else str(Path(choices.drive).absolute()),
-            "gears": choices.gears,
-            "duration": float(choices.duration),
-            "view_rate": VIEW_RATE if choices.view else 0,
-        },
-    }
+def _run_nodes(processes, choices, parameters, folder, console):
+    """Run the nodes to the end; returns the KeyboardInterrupt that cut them short, or None."""
     interrupted = None
     try:
-        processes.start(closed_loop_parameters(), overrides, folder / "log")
-        _follow(processes, choices.duration, console)
+        processes.start(parameters, folder / "log")
+        _follow(processes, choices, console)
     except KeyboardInterrupt as interrupt:
         interrupted = interrupt
     first = processes.ended()
@@ -185,7 +92,7 @@ def _ending(name, code, folder):
     return words
 
 
-def _follow(processes, duration, console):
+def _follow(processes, choices, console):
     """Show progress until a process has ended."""
     from ..nodes.watch import Watch  # imported late, as above
 
@@ -195,8 +102,8 @@ def _follow(processes, duration, console):
         TextColumn("{task.completed:.1f} of {task.total:g} s, {task.fields[pace]} x real time"),
         TimeRemainingColumn(),
     )
-    with Watch() as watch, Progress(*columns, console=console) as progress:
-        task = progress.add_task("starting", total=duration, pace="-")
+    with Watch(choices.namespace) as watch, Progress(*columns, console=console) as progress:
+        task = progress.add_task("starting", total=choices.duration, pace="-")
         from . import run_summary  # noqa: F401  what measures the run is loaded while its nodes start
 
         while not processes.ended():

@@ -2,44 +2,39 @@
 
 import click
 
+from ..nodes.loop_arguments import ARGUMENTS
 from ..vehicle.drive.limits import FASTEST
 from .endings import fail
-from .option_types import FiniteRange, law_option, vehicle_option
+from .option_types import FiniteRange, law_option
+
+
+def _option(name, option=click.option, **settings):
+    """Return the option of an argument of the loop; None where it is not given."""
+    argument = ARGUMENTS[name]
+    default = {"show_default": argument.default} if argument.default else {}
+    return option(f"--{name.replace('_', '-')}", default=None, help=argument.description, **default, **settings)
 
 
 @click.command()
-@vehicle_option
+@_option("vehicle", metavar="NAME|FILE")
+@_option("road", metavar="CLASS|FILE")
+@_option("speed", type=FiniteRange(-FASTEST, FASTEST))
+@_option("drive", type=click.Path(exists=True, dir_okay=False))
+@_option("gears", is_flag=True)
+@_option("duration", type=FiniteRange(0.1, 3600.0))
+@_option("law", law_option)
+@_option("law_parameters", metavar="NAME=VALUE,...")
+@_option("seed", type=click.IntRange(0, 10**9))
+@_option("physics_rate", type=click.IntRange(1000, 200_000))
+@_option("control_rate", type=click.IntRange(10, 10_000))
 @click.option(
-    "--road",
-    default="E",
-    show_default=True,
-    metavar="CLASS|FILE",
-    help="Class by ISO 8608, A to H, or a file: profile (CSV), OpenCRG, road file (YAML), or a bag.",
-)
-@click.option(
-    "--speed",
-    type=FiniteRange(-FASTEST, FASTEST),
-    default=10.0,
-    show_default=True,
-    help="Speed in m/s; below 0 backwards.",
-)
-@click.option(
-    "--drive",
+    "--params-file",
+    "files",
     type=click.Path(exists=True, dir_okay=False),
-    default=None,
-    help="Drive file: speed, path and engine speed over time or distance, in place of --speed.",
+    multiple=True,
+    help="Parameter file of ROS 2 for any of the nodes, where no option is given; of several the last counts.",
 )
-@click.option("--gears", is_flag=True, help="Engine speed follows the vehicle's, through the vehicle file's gears.")
-@click.option("--duration", type=FiniteRange(0.1, 3600.0), default=10.0, show_default=True, help="Simulated time in s.")
-@law_option("--law", default="passive", show_default=True, help="Control law")
-@click.option("--seed", type=click.IntRange(0, 10**9), default=1, show_default=True, help="Seed of the road.")
-@click.option(
-    "--physics-rate",
-    type=click.IntRange(1000, 200_000),
-    default=10_000,
-    show_default=True,
-    help="Rate of the physics steps in Hz; `trackvib vehicle` tells the one that a vehicle needs.",
-)
+@click.option("--namespace", default="/", show_default=True, help="Namespace of the whole vehicle, its clock included.")
 @click.option(
     "--one-process", is_flag=True, help="Simulator, road and controller in one process: the same results, sooner."
 )
@@ -50,17 +45,19 @@ from .option_types import FiniteRange, law_option, vehicle_option
     default=None,
     help="Folder to make for the run.  [default: runs/<time>_<road>_<speed>]",
 )
-def run(out, **choices):
+def run(out, files, namespace, one_process, view, **options):
     """Run the closed loop as four ROS 2 nodes; leaves a bag, a summary and a picture."""
     from .result_folder import CommandError
-    from .run import Choices, run_loop  # imported late: --help need not wait for it
+    from .run import run_loop  # imported late: --help need not wait for it
 
+    given = {name: value for name, value in {**options, "view": view or None}.items() if value is not None}
+    choosing = {"given": given, "files": files, "namespace": namespace, "one_process": one_process, "view": view}
     try:
-        if choices["view"]:
+        if view:
             from .live_view import run_with_view
 
-            run_with_view(Choices(**choices), out)
+            run_with_view(choosing, out)
         else:
-            run_loop(Choices(**choices), out)
+            run_loop(choosing, out)
     except CommandError as error:
         fail(error)

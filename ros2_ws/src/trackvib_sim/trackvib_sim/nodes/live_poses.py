@@ -42,13 +42,14 @@ class LivePoses:
         Stamps [ns], corners (n, 3) [m] and colours (n, 3) of triangles of road that were not taken away.
     """
 
-    def __init__(self, vehicle, names):
-        """Listen for a vehicle (`parameters.Vehicle`) whose sensors are called `names`."""
+    def __init__(self, vehicle, names, namespace):
+        """Listen in a namespace for a vehicle (`parameters.Vehicle`) whose sensors are called `names`."""
         self.frames, self.roads, self._sensors, self._mounts = [], [], {}, None
         self._names = list(names)
         self._assembly, self._context = PoseAssembly(vehicle), rclpy.Context()
         rclpy.init(context=self._context, signal_handler_options=SignalHandlerOptions.NO)
-        self._node = rclpy.create_node(f"live_view_{time.monotonic_ns()}", context=self._context)
+        name = f"live_view_{time.monotonic_ns()}"
+        self._node = rclpy.create_node(name, namespace=namespace, context=self._context)
         self._executor = EventsExecutor(context=self._context)
         self._executor.add_node(self._node)
         self._listen(TFMessage, topics.TF, self._on_frames)

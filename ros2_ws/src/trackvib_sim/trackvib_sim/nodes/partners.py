@@ -40,7 +40,7 @@ class Gathering:
 
 
 class SecondClock:
-    """Notices another simulator in the ROS domain: of two, the one whose clock is behind gives way.
+    """Notices another simulator in the ROS domain and namespace: of two, the one whose clock is behind gives way.
 
     A single message that is ahead is none: a clock goes on, and one that stands still repeats itself.
     """
@@ -51,7 +51,7 @@ class SecondClock:
         self._node, self._time = node, simulated_time
         self._heard = -inf  # wall time of the latest message that was ahead, s
         self._own = 0  # the latest time that the node has ever published, ns: its own clock goes back, too
-        node.listen(Clock, topics.CLOCK, self._on_clock, CLOCK_QOS)
+        self._topic = node.listen(Clock, topics.CLOCK, self._on_clock, CLOCK_QOS).topic_name
 
     def listen(self):
         """Listen for as long as a simulator that is there already needs to make itself known."""
@@ -62,7 +62,9 @@ class SecondClock:
     def refuse(self):
         """Raise `NodeError` if there is one that is ahead."""
         if self.ahead:
-            raise NodeError(f"another simulator drives {topics.CLOCK} in this ROS domain; set another ROS_DOMAIN_ID")
+            raise NodeError(
+                f"another simulator drives {self._topic} in this ROS domain; set another ROS_DOMAIN_ID or namespace"
+            )
 
     def start_anew(self):
         """Note, before it happens, that the node's own time goes back to zero."""

@@ -48,8 +48,8 @@ _REPEAT = 0.5  # s of wall time after which a player that stands still tells the
 class PlayerNode(LoopNode):
     """Plays a bag; pause, resume, step and reset are those of the simulator, a step being one instant of the bag.
 
-    Topics are published by their relative names, so that they can be remapped and put into a namespace. `/clock` is
-    the player's own, whether there is one in the bag or not.
+    Topics are published by their relative names, so that they can be remapped and put into a namespace. `clock` is the
+    player's own, whether there is one in the bag or not.
     """
 
     def __init__(self):
@@ -104,7 +104,7 @@ class PlayerNode(LoopNode):
         return first + round(start * NANO), min(first + round(end * NANO), last)
 
     def _is_wanted(self, topic):
-        return topic != CLOCK and any(map(partial(_matches, topic), self.settings["topics"]))
+        return topic.removeprefix("/") != CLOCK and any(map(partial(_matches, topic), self.settings["topics"]))
 
     def _chosen(self):
         there = sorted({connection.topic for connection in self._bag.connections})

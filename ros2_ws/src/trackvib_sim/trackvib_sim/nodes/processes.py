@@ -1,9 +1,6 @@
 """The processes of a closed loop: started together, watched, ended in order."""
 
-import json
 from pathlib import Path
-
-from ament_index_python.packages import get_package_share_directory
 
 from ..simulation import closed_loop  # noqa: F401  the nodes have it from here
 from .forked_node import ForkedNode
@@ -12,16 +9,12 @@ from .forked_node import ForkedNode
 FOUR_PROCESSES = ("road_excitation", "controller", "recorder", "simulator")
 ONE_PROCESS = ("recorder", "one_process")  # a recorder that is slow must not hold it
 _LAST_FIRST = ("simulator", "one_process", "controller", "road_excitation", "recorder")
+PARAMETERS = "parameters.yaml"  # the file that all of them read
 _GRACE = 10.0  # s for a process to end by itself
 
 
-def closed_loop_parameters():
-    """Return the path of the node parameters that `closed_loop.launch.py` and `trackvib run` share."""
-    return Path(get_package_share_directory("trackvib_sim")) / "config" / "closed_loop.yaml"
-
-
 class LoopProcesses:
-    """Runs nodes with one parameter file and their own overrides.
+    """Runs nodes with one parameter file for all.
 
     Use it as a context manager around all that loads ROS 2 here: its processes are made at once (`ForkedNode`), and
     have ended when it is left.
@@ -38,18 +31,17 @@ class LoopProcesses:
     def __exit__(self, *_):
         self.stop()
 
-    def start(self, parameter_file, overrides, log_folder):
-        """Start the nodes.
+    def start(self, parameters, log_folder):
+        """Start the nodes with `NodeParameters`.
 
-        `overrides` maps names of nodes to parameters, `log_folder` takes what each process prints.
+        `log_folder` takes these as a file, and what each process prints.
         """
-        given = []
-        for node, parameters in overrides.items():
-            for parameter, value in parameters.items():
-                given += ["-p", f"{node}:{parameter}:={json.dumps(value)}"]  # JSON is YAML, and quotes what needs it
         self._log_folder = Path(log_folder)
+        file = (self._log_folder / PARAMETERS).absolute()
+        parameters.write(file)
+        words = ["--ros-args", "--params-file", str(file), "-r", f"__ns:={parameters.namespace}"]
         for name, node in self._nodes.items():
-            node.begin(["--ros-args", "--params-file", str(parameter_file), *given], self._log(name))
+            node.begin(words, self._log(name))
 
     def ended(self):
         """Return the exit codes of the processes that have ended, by name."""

@@ -50,7 +50,8 @@ PARAMETERS = (
     Parameter(
         "pattern",
         "",
-        "Regular expression; further topics in whose full name it is found are recorded as soon as they appear.",
+        "Regular expression; further topics of the recorder's namespace are recorded as soon as they appear if it is "
+        "found in their name, as `/chassis/imu`, without that namespace.",
     ),
     Parameter("compression", "zstd", "How the chunks of the bag are compressed.", choices=tuple(COMPRESSIONS)),
     Parameter("chunk_size", 1024, "Size of a chunk before compression.", "KiB", 16, 65536),

@@ -62,6 +62,7 @@ class RerunBag:
         self._write(topics.CLOCK, serialize_message(clock))
 
     def _write(self, topic, data):
-        name = topic if topic.startswith("/") else self._namespace + topic
-        if name in self._known:
-            self._writer.write(name, self._simulation.time, data)
+        for name in (self._namespace + topic, f"/{topic}"):  # older bags have some topics outside the namespace
+            if name in self._known:
+                self._writer.write(name, self._simulation.time, data)
+                return

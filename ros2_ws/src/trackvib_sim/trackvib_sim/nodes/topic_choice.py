@@ -36,7 +36,8 @@ class TopicChoice:
     names : list of str
         Topics to wait for; empty texts are passed over.
     pattern : str
-        Regular expression; empty for none. The recorder's own topics are never found by it.
+        Regular expression; empty for none. It finds topics in the recorder's namespace by their names in that, and
+        never the recorder's own.
 
     Attributes
     ----------
@@ -68,8 +69,10 @@ class TopicChoice:
         """Return the names of all topics of the choice that have a publisher."""
         names = set(self.named)
         if self._pattern:
-            known = dict(self._node.get_topic_names_and_types())
-            names |= {name for name in known if self._pattern.search(name) and name not in self._own}
+            known = dict(self._node.get_topic_names_and_types()).keys() - self._own
+            space = self._node.get_namespace().rstrip("/")
+            inside = {name for name in known if name.startswith(f"{space}/")}
+            names |= {name for name in inside if self._pattern.search(name.removeprefix(space))}
         return {name for name in names if self._node.get_publishers_info_by_topic(name)}
 
     def complete(self):

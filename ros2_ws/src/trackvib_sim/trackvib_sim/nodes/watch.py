@@ -16,12 +16,14 @@ _LISTENING = 0.7  # s in which nodes that are there make themselves known
 
 
 class Watch:
-    """Latest diagnostics of the simulator; use as a context manager."""
+    """Latest diagnostics of the simulator in a namespace; use as a context manager."""
+
+    def __init__(self, namespace="/"):
+        self._namespace, self._values = namespace, {}
 
     def __enter__(self):
         start_ros()
-        self._node = rclpy.create_node("trackvib_watch")
-        self._values = {}
+        self._node = rclpy.create_node("trackvib_watch", namespace=self._namespace)
         Listener(self._node, DiagnosticArray, DIAGNOSTICS, self._on_diagnostics, 1)
         self._executor = EventsExecutor()
         self._executor.add_node(self._node)
@@ -33,7 +35,7 @@ class Watch:
         rclpy.try_shutdown()
 
     def simulator_is_there(self):
-        """Listen for a moment; returns whether a simulator already runs in this ROS domain."""
+        """Listen for a moment; returns whether a simulator already runs in this ROS domain and namespace."""
         end = time.monotonic() + _LISTENING
         while time.monotonic() < end:
             self._spin(_LISTENING / 10)

@@ -13,15 +13,15 @@ from .vehicle_log import GRAVITY_UP, VehicleLog
 _PIECE = 0.5  # s of wall time
 
 
-def live_pieces(vehicle, title, over):
-    """Yield the pieces of a recording of a run of a vehicle, as bytes, until `over()`."""
+def live_pieces(vehicle, title, namespace, over):
+    """Yield the pieces of a recording of a run of a vehicle in a namespace, as bytes, until `over()`."""
     stream = new_stream(title)
     system = build_system(vehicle, Operation(0.0, 0.0, False), STEP)
     binary, log = stream.binary_stream(), VehicleLog(stream, vehicle, system)
     stream.send_blueprint(layout(log.mounts.coils > 0, bool(log.mounts.names), live=True))
     log.begin()
     announce_curves(stream, log.mounts)
-    live = LivePoses(vehicle, [sensor.name for sensor in log.sensors])
+    live = LivePoses(vehicle, [sensor.name for sensor in log.sensors], namespace)
     try:
         ended, first = False, True
         while not ended:

@@ -57,7 +57,7 @@ def _messages(path):
     for record in raw_records(path):
         if not isinstance(record, RawMessage) or record.message is None:
             continue
-        end = next((end for end in _TYPES if f"/{record.topic}".endswith(f"/{end.lstrip('/')}")), None)
+        end = next((end for end in _TYPES if f"/{record.topic}".endswith(f"/{end}")), None)
         if end is None or record.type_name != _TYPES[end]:
             continue
         key = (record.schema.name, record.schema.data)

@@ -1,0 +1,99 @@
+"""What the user chose of a run of the closed loop: by options, and by parameter files where no option says it."""
+
+from dataclasses import dataclass
+from math import isfinite
+from pathlib import Path
+
+from mr_mount_controller.node_base.parameters import ParameterError
+
+from ..analysis.segments import SHORTEST_MEASURING
+from ..analysis.settling import SHORTEST_SETTLING, VEHICLE_BEHIND, settling_time
+from ..nodes.loop_arguments import CONTROLLER, ROAD, SIMULATOR, loop_parameters
+from ..nodes.node_parameters import full_namespace
+from ..nodes.simulator_parameters import PARAMETERS
+from ..road_sources.road_file import RoadError, find_road, road_in_words
+from ..vehicle.drive.drive_file import DriveFileError, drive_text, parse_drive
+from ..vehicle.drive.schedule import arrival_time
+from ..vehicle.vehicle_file import VehicleFileError
+from .result_folder import CommandError
+
+
+@dataclass(frozen=True)
+class Choices:
+    """What the summary of a run tells of it."""
+
+    vehicle: str | None  # name or file; None for the default one
+    road: str  # class, or file
+    speed: float
+    drive: str | None  # file; then `speed` has no effect
+    gears: bool
+    duration: float
+    law: str
+    seed: int
+    physics_rate: int
+    one_process: bool
+    namespace: str  # full name
+    view: bool  # in a browser
+
+    @property
+    def title(self):
+        """The run in words."""
+        vehicle = f"vehicle {self.vehicle}, " if self.vehicle else ""
+        drive = f"{self.speed:g} m/s" if self.drive is None else f"drive {Path(self.drive).name}"
+        road = f"{road_in_words(self.road)}, {drive}{' in gears' if self.gears else ''}"
+        space = "" if self.namespace == "/" else f", namespace {self.namespace}"
+        return f"{vehicle}{road}, law {self.law}, seed {self.seed}, {self.duration:g} s{space}"
+
+
+def choose(given, files, namespace, one_process, view):
+    """Return the `Choices`, the `NodeParameters` that they are, the vehicle (`parameters.Vehicle`), and how long the
+    run settles [s].
+
+    Parameters
+    ----------
+    given : dict
+        Values of `loop_arguments.ARGUMENTS` by name.
+    files : iterable of path
+        Parameter files, which count where no option is given.
+    namespace : str
+    one_process, view : bool
+
+    Raises
+    ------
+    CommandError
+        An option or file cannot be used, or the duration is too short.
+    """
+    try:
+        parameters, vehicle = loop_parameters(given, files, full_namespace(namespace))
+        own = {each.name: each.check(parameters.get(SIMULATOR, each.name, each.default)) for each in PARAMETERS}
+        choices = Choices(
+            vehicle=given.get("vehicle") or own["vehicle_file"] or None,
+            road=given.get("road") or str(parameters.get(ROAD, "road")),
+            drive=given.get("drive") or own["drive"] or None,
+            law=str(parameters.get(CONTROLLER, "law")),
+            seed=parameters.get(ROAD, "seed"),
+            one_process=one_process,
+            namespace=parameters.namespace,
+            view=view,
+            **{name: own[name] for name in ("speed", "gears", "duration", "physics_rate")},
+        )
+        settling = _settling(choices, find_road(choices.road, 2.0 * vehicle.road_wheels.y).begins)
+    except (ParameterError, RoadError, DriveFileError, VehicleFileError) as error:
+        raise CommandError(str(error)) from None
+    if choices.duration < settling + SHORTEST_MEASURING:
+        how = f"at {choices.speed:g} m/s" if choices.drive is None else f"with drive {choices.drive}"
+        raise CommandError(
+            f"--duration is {choices.duration:g} s, must be at least {settling + SHORTEST_MEASURING:.1f} s {how}: "
+            f"{settling:.1f} s to settle and {SHORTEST_MEASURING:g} s to measure"
+        )
+    return choices, parameters, vehicle, settling
+
+
+def _settling(choices, begins):
+    """How long a run settles [s]: until all of the vehicle is on the road proper, which begins at a distance [m].
+
+    A vehicle that never gets there, for it stands, settles as shortly as any."""
+    if choices.drive is None:
+        return settling_time(choices.speed, begins)
+    arrival = arrival_time(parse_drive(drive_text(choices.drive), 0.0, choices.drive), begins + VEHICLE_BEHIND)
+    return max(arrival, SHORTEST_SETTLING) if isfinite(arrival) else SHORTEST_SETTLING
