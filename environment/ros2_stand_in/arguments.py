@@ -58,7 +58,7 @@ def _launch(commands):
 
 
 def _looking(verb):
-    verb.add_argument("--spin-time", type=_seconds, default=0.5, help="s without news after which all is found")
+    verb.add_argument("--spin-time", type=_seconds, default=1.0, help="s without news after which all is found")
     verb.add_argument("--no-daemon", action="store_true", help="there is none; accepted as ros2cli's")
 
 

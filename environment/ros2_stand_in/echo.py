@@ -49,8 +49,7 @@ def echo(chosen):
 def _message_type(session, topic, chosen):
     if chosen.message_type:
         return interface(chosen.message_type, "msg")
-    session.settle(chosen.spin_time)
-    types = dict(session.node.get_topic_names_and_types()).get(topic)
+    types = session.find_topic(topic, chosen.spin_time)
     if not types:
         line(f"WARNING: topic [{topic}] does not appear to be published yet", sys.stderr)
         raise Failure("Could not determine the type for the passed topic")

@@ -41,12 +41,12 @@ def hz(chosen):
 
 def _type_of(session, topic, quiet):
     """Wait for a topic; returns the name of its type."""
-    known = lambda: dict(session.node.get_topic_names_and_types()).get(topic)  # noqa: E731
-    session.settle(quiet)
-    if not known():
+    types = session.find_topic(topic, quiet)
+    if not types:
         line(f"WARNING: topic [{topic}] does not appear to be published yet", sys.stderr)
-        session.wait_until(known)
-    return known()[0]
+    while not types:
+        types = session.find_topic(topic, quiet)
+    return types[0]
 
 
 def _report(steps):

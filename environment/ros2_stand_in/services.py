@@ -1,10 +1,13 @@
 """`ros2 service list` and `call`."""
 
+import os
 import time
 
-from environment.ros2_stand_in.message_text import fill, from_yaml
-from environment.ros2_stand_in.session import Session, absolute, interface, is_hidden
-from environment.ros2_stand_in.terminal import line, lines
+os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"  # of messages that are imported from here on: a wrong value is an error
+
+from environment.ros2_stand_in.message_text import fill, from_yaml  # noqa: E402
+from environment.ros2_stand_in.session import Session, absolute, interface, is_hidden  # noqa: E402
+from environment.ros2_stand_in.terminal import line, lines  # noqa: E402
 
 
 def list_services(chosen):

@@ -14,6 +14,7 @@ from rclpy.experimental import EventsExecutor
 from environment.ros2_stand_in.terminal import Failure
 
 _TICK = 0.05  # s
+_PATIENCE = 5.0  # s for a topic that is asked for by its name
 _LONGEST_LOOK = 20.0  # times the quiet time: a graph that never rests is told as it is
 _INTERFACE = re.compile(r"([a-zA-Z]\w*)/(?:(msg|srv)/)?([A-Za-z]\w*)")
 
@@ -59,6 +60,13 @@ class Session:
             if now != seen:
                 seen, since = now, time.monotonic()
             self.spin()
+
+    def find_topic(self, topic, quiet):
+        """Return the types of a topic by its full name, none if it is not found; its ends are known, too."""
+        types = lambda: dict(self.node.get_topic_names_and_types()).get(topic, [])  # noqa: E731
+        if self.wait_until(types, _PATIENCE):
+            self.settle(quiet)
+        return types()
 
     def node_names(self):
         """Return the full names of all nodes but this one, sorted; one for each that is there."""

@@ -37,10 +37,9 @@ def _by_ends(node, found):
 def info(chosen):
     """Print type and counts, with --verbose each end."""
     with Session() as session:
-        session.settle(chosen.spin_time)
         node, topic = session.node, absolute(chosen.topic_name)
-        types = dict(node.get_topic_names_and_types()).get(topic)
-        if types is None:
+        types = session.find_topic(topic, chosen.spin_time)
+        if not types:
             raise Failure(f"Unknown topic '{topic}'")
         gap = "\n" if chosen.verbose else ""
         lines(f"Type: {types[0] if len(types) == 1 else types}{gap}")

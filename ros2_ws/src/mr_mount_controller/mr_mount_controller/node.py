@@ -122,7 +122,9 @@ class ControllerNode(LoopNode):
         self._law = changed_law(self._law, values)
         event = ParameterEvent(node=self.get_fully_qualified_name())
         event.stamp.sec, event.stamp.nanosec = divmod(self._last or 0, NANO)
-        event.changed_parameters = [RosParameter(name, value=value).to_parameter_msg() for name, value in values.items()]
+        event.changed_parameters = [
+            RosParameter(name, value=value).to_parameter_msg() for name, value in values.items()
+        ]
         self._changes.publish(event)
         told = ", ".join(f"{name} {value!r}" for name, value in values.items())
         self.get_logger().info(plain_line(f"law changed after t = {(self._last or 0) / NANO:.3f} s: {told}"))

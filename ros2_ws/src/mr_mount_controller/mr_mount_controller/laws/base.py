@@ -158,7 +158,9 @@ def changed_law(law, values):
     except ParameterError:
         raise
     except Exception as error:  # whatever a user's law raises must not end a run that goes well
-        raise ParameterError(f"law {type(law).__name__} cannot take {values}: {type(error).__name__}: {error}") from None
+        raise ParameterError(
+            f"law {type(law).__name__} cannot take {values}: {type(error).__name__}: {error}"
+        ) from None
     return changed
 
 

@@ -1,5 +1,7 @@
 """What an executable says of itself when it is asked for help: parameters, topics, services. Nothing is started."""
 
+import sys
+from inspect import getdoc
 from textwrap import fill
 
 from .topics import TOPICS
@@ -14,19 +16,18 @@ def wants_help(arguments):
     return any(word in _WORDS for word in arguments[1:])
 
 
-def help_text(program, about, nodes):
+def help_text(program, nodes):
     """Return the help of a program.
 
     Parameters
     ----------
     program : str
         Its name.
-    about : str
-        What it does.
     nodes : list of type
         Classes of its nodes, as `loop_node.LoopNode`; parameters of several are given by the node's name.
     """
-    parts = [_USAGE.format(name=program), about]
+    about = (getdoc(sys.modules[node.__module__]) for node in nodes)
+    parts = [_USAGE.format(name=program), "\n".join(about)]
     for node in nodes:
         prefix = f"{node.NAME}:" if len(nodes) > 1 else ""
         for title, parameters in node.parameters_by_title().items():
@@ -35,7 +36,7 @@ def help_text(program, about, nodes):
         heard = [each for each in TOPICS if node.NAME in each.readers]
         for title, topics in (("publishes", published), ("listens to", heard)):
             if topics:
-                lines = (_block(f"{each.name}  ({each.type})", each.meaning) for each in topics)
+                lines = (_topic(each) for each in topics)
                 parts.append("\n".join([f"{node.NAME} {title}:", *lines]))
         if node.SERVICES:
             lines = (_block(f"{node.NAME}/{name}  ({kind})", meaning) for name, kind, meaning in node.SERVICES)
@@ -50,6 +51,11 @@ def _parameter(prefix, parameter):
     else:
         shown = str(default).lower() if isinstance(default, bool) else default
     return _block(f"{prefix}{parameter.name}:={shown}", f"{parameter.description} Accepted is {parameter.accepted}.")
+
+
+def _topic(topic):
+    rate = topic.rate.replace("`", "")
+    return _block(f"{topic.name}  ({topic.type}, {rate})", topic.meaning.replace("`", ""))
 
 
 def _block(head, text):

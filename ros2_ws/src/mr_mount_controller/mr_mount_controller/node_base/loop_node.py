@@ -1,6 +1,5 @@
 """What every node of trackvib does alike: declared parameters, a bounded spin, a clean end on SIGINT and SIGTERM."""
 
-import inspect
 import signal
 import sys
 from pathlib import Path
@@ -14,7 +13,6 @@ from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
 from rclpy.parameter import Parameter as RosParameter
 from rclpy.signals import SignalHandlerOptions
-from rclpy.utilities import remove_ros_args
 
 from .descriptors import descriptor_of
 from .help_text import help_text, wants_help
@@ -183,6 +181,8 @@ def start_ros(args=()):
     ParameterError
         The arguments, the program's name first, are not those of ROS 2.
     """
+    if foreign := _outside(args[1:]):
+        raise ParameterError(f"arguments {foreign} do not stand behind --ros-args; {_ACCEPTED}")
     remove_unfinished_segments()
     set_logger_level("rcl", LoggingSeverity.FATAL)  # it says for itself, in more words, what the error says
     try:
@@ -199,8 +199,17 @@ def start_ros(args=()):
         raise ParameterError(f"argument {error.object!r} is no text in UTF-8; {_ACCEPTED}") from None
     finally:
         set_logger_level("rcl", LoggingSeverity.UNSET)
-    if foreign := remove_ros_args(args)[1:]:
-        raise ParameterError(f"arguments {foreign} are not known; {_ACCEPTED}")
+
+
+def _outside(words):
+    """Return those of some words that are not between --ros-args and --; ROS would take `a:=b` there for a remapping."""
+    outside, of_ros = [], False
+    for word in words:
+        if word == ("--" if of_ros else "--ros-args"):
+            of_ros = not of_ros
+        elif not of_ros:
+            outside.append(word)
+    return outside
 
 
 def run_node(make_node, args=None, companions=()):
@@ -211,8 +220,7 @@ def run_node(make_node, args=None, companions=()):
     """
     arguments = sys.argv if args is None else args
     if wants_help(arguments):
-        about = inspect.getdoc(sys.modules[make_node.__module__])
-        print(help_text(Path(arguments[0]).name, about, [make_node, *companions]))
+        print(help_text(Path(arguments[0]).name, [make_node, *companions]))
         return 0
     stop = []
     for number in (signal.SIGINT, signal.SIGTERM):
