@@ -202,7 +202,7 @@ def start_ros(args=()):
 
 
 def _outside(words):
-    """Return those of some words that are not between --ros-args and --; ROS would take `a:=b` there for a remapping."""
+    """Return the words that are not between --ros-args and --; of these ROS takes `a:=b` for a remapping."""
     outside, of_ros = [], False
     for word in words:
         if word == ("--" if of_ros else "--ros-args"):

@@ -53,7 +53,7 @@ def run_replay_law(bag, law, out, console):
 
 
 def _law(recording, name, rate):
-    """Return the law for a rate [Hz] and the changes of its parameters: those of the recorded run if it had that law."""
+    """Return the law for a rate [Hz], and changes of its parameters: as recorded, if the run had that law."""
     law, (_, recorded) = find_law(name), parameters_with(recording.provenance, "law")
     if recorded.get("law") != name:
         return law(1.0 / rate), ()
