@@ -6,12 +6,14 @@ from array import array
 from statistics import mean
 from typing import NamedTuple
 
+from rcl_interfaces.msg import ParameterEvent
 from rclpy.duration import Duration
+from rclpy.parameter import Parameter as RosParameter
 from sensor_msgs.msg import Imu
 from trackvib_msgs.msg import CoilCurrent, MountDescription
 
-from .laws import find_law
-from .laws.base import LawError, Sample, answer
+from .laws import find_law, known_laws
+from .laws.base import LawError, Sample, answer, changed_law
 from .mounting import MOST_COILS, described, undescribed
 from .node_base.cdr import NANO
 from .node_base.listener import Refused
@@ -19,8 +21,9 @@ from .node_base.loop_node import LoopNode, NodeError, run_node
 from .node_base.packed_message import MessageReader
 from .node_base.parameters import Parameter
 from .node_base.patience import Patience
+from .node_base.plain_text import plain_line
 from .node_base.qos import LATCHED_QOS, LOOP_QOS, LOOP_WRITER_QOS
-from .node_base.topics import CHASSIS_IMU, COIL_CURRENT, MOUNT_DESCRIPTION, POWERTRAIN_IMU
+from .node_base.topics import CHASSIS_IMU, COIL_CURRENT, LAW_PARAMETERS, MOUNT_DESCRIPTION, POWERTRAIN_IMU
 
 PARAMETERS = (
     Parameter("law", "passive", "Control law: a known name, or package.module:Class."),
@@ -54,10 +57,12 @@ def _reading(imu):
 class ControllerNode(LoopNode):
     """Runs one law on the Imu messages of chassis and powertrain that carry the same stamp."""
 
+    NAME, PARAMETERS = "controller", PARAMETERS
+
     def __init__(self):
-        super().__init__("controller", PARAMETERS)
+        super().__init__()
         law = find_law(self.settings["law"])
-        values = self.declare_more(law.parameters)
+        values = self.declare_changeable(law.parameters, self._change_law)
         self._period = round(NANO / self.settings["sample_rate"])
         self._law = law(self._period / NANO, **values)
         self._chassis = self._powertrain = None  # latest readings
@@ -70,6 +75,7 @@ class ControllerNode(LoopNode):
         self._mounting = None  # not known yet
         self._missed = False  # whether somebody was told so
         self._currents = self.create_publisher(CoilCurrent, COIL_CURRENT, LOOP_WRITER_QOS)
+        self._changes = self.create_publisher(ParameterEvent, LAW_PARAMETERS, LOOP_WRITER_QOS)
         for topic, on_imu in ((CHASSIS_IMU, self._on_chassis), (POWERTRAIN_IMU, self._on_powertrain)):
             imu = MessageReader(Imu, "header.stamp", {"angular_velocity": 3, "linear_acceleration": 3})
             self.listen(Imu, topic, on_imu, LOOP_QOS, imu.read)
@@ -77,6 +83,13 @@ class ControllerNode(LoopNode):
             self._begin_on(undescribed(self.settings["coils"]))
         else:
             self.listen(MountDescription, MOUNT_DESCRIPTION, self._on_description, LATCHED_QOS)
+
+    @classmethod
+    def parameters_by_title(cls):
+        """Return those of the node, and those of each known law beside them."""
+        laws = {name: find_law(name).parameters for name in known_laws()}
+        of_laws = {f"with law:={name}, may change while it runs": own for name, own in laws.items() if own}
+        return {**super().parameters_by_title(), **of_laws}
 
     def run(self):
         """Say what runs, wait for a simulator or vehicle, answer until told to stop."""
@@ -103,6 +116,18 @@ class ControllerNode(LoopNode):
         self._mounting, self._last, self._sample = mounting, None, None
         self._law.run_on(mounting)
         self.get_logger().info(f"coils: {', '.join(mounting.names[: mounting.coils]) or 'none'}")
+
+    def _change_law(self, values):
+        """Go on with other values of the law's parameters, from the next sample on."""
+        self._law = changed_law(self._law, values)
+        event = ParameterEvent(node=self.get_fully_qualified_name())
+        event.stamp.sec, event.stamp.nanosec = divmod(self._last or 0, NANO)
+        event.changed_parameters = [
+            RosParameter(name, value=value).to_parameter_msg() for name, value in values.items()
+        ]
+        self._changes.publish(event)
+        told = ", ".join(f"{name} {value!r}" for name, value in values.items())
+        self.get_logger().info(plain_line(f"law changed after t = {(self._last or 0) / NANO:.3f} s: {told}"))
 
     def _on_chassis(self, imu):
         self._chassis = _reading(imu)

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..mounting import PAIR
+from ..node_base.parameters import ParameterError
 
 
 class Sample(NamedTuple):
@@ -71,6 +72,9 @@ class ControlLaw:
       together it refuses with `ParameterError`; the node then ends with that message.
     * `reset()` is called at the end of the base class's `__init__`, hence before a subclass's own `__init__` goes on,
       and again whenever the time of the samples starts anew, or `mounting` changes.
+    * Parameters may change during a run. Another law of the class is then made with the new values, `run_on` gives it
+      the mounts, and `continue_from(earlier)` the law that ran so far; it answers from the next sample on. Values that
+      its `__init__` refuses are refused to whoever wanted them, and the earlier law goes on.
     * `update(sample)` is called once for each sample, in order of time. Samples are one period apart; should one be
       lost, the next comes all the same, its time tells, and the node counts the gap. All calls come from one thread,
       none before `reset`.
@@ -127,9 +131,37 @@ class ControlLaw:
     def reset(self):
         """Forget the past."""
 
+    def continue_from(self, earlier):
+        """Take over the memory of a law of this class with other parameters, as far as it holds for these.
+
+        By default nothing, as after `reset`: right for every law, if not smooth for those that remember much.
+        """
+
     def update(self, sample: Sample) -> float | Sequence[float] | np.ndarray:
         """Return the current [A] that answers a `Sample`: one for all coils, or one for each."""
         raise NotImplementedError
+
+
+def changed_law(law, values):
+    """Return a law that goes on for another one with other values of some parameters, by name.
+
+    Raises
+    ------
+    ParameterError
+        They do not go together, or the law cannot be made with them.
+    """
+    kept = {parameter.name: getattr(law, parameter.name) for parameter in law.parameters}
+    try:
+        changed = type(law)(law.period, **{**kept, **values})
+        changed.run_on(law.mounting)
+        changed.continue_from(law)
+    except ParameterError:
+        raise
+    except Exception as error:  # whatever a user's law raises must not end a run that goes well
+        raise ParameterError(
+            f"law {type(law).__name__} cannot take {values}: {type(error).__name__}: {error}"
+        ) from None
+    return changed
 
 
 def answer(law, sample):

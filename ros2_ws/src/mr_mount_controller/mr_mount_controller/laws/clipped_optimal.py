@@ -44,6 +44,11 @@ class ClippedOptimal(DampingLaw):
         self._state = 0.0, 0.0, 0.0, 0.0
         self._coils = [self.soft_current] * self.mounting.coils
 
+    def continue_from(self, earlier):
+        """Keep the estimated motion of the mounts and the currents in their coils, too."""
+        super().continue_from(earlier)
+        self._state, self._coils = earlier._state, earlier._coils
+
     def currents(self, motion, sample):
         """Return the current of each coil, or one if turning moves none."""
         self._follow(motion)

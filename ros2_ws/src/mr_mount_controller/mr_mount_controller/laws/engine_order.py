@@ -33,6 +33,10 @@ class EngineOrder(ControlLaw):
         self._engine = EngineSpeedEstimator(self.period, carried)
         self._crossover = _CROSSOVER * carried.resonance(coils, self.mounting.curve.stiffness(self.firm_current))
 
+    def continue_from(self, earlier):
+        """Keep what is known of the engine."""
+        self._engine = earlier._engine
+
     def update(self, sample):
         """Return the current."""
         speed = self._engine.update(sample)

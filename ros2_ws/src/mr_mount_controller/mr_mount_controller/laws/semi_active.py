@@ -44,6 +44,11 @@ class SemiActiveLaw(ControlLaw):
         self._different = sorted(set(self._levers))
         self._alike = self._different == [(0.0, 0.0)]
 
+    def continue_from(self, earlier):
+        """Keep the estimated motion, unless it shall be estimated otherwise."""
+        if self.corner == earlier.corner:
+            self._estimator = earlier._estimator
+
     def update(self, sample):
         """Return the current of each coil, or one if turning moves none."""
         return self.currents(self._estimator.update(sample), sample)

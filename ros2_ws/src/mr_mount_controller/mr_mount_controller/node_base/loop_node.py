@@ -2,9 +2,10 @@
 
 import signal
 import sys
+from pathlib import Path
 
 import rclpy
-from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+from rcl_interfaces.msg import SetParametersResult
 from rclpy._rclpy_pybind11 import RCLError, UnknownROSArgsError
 from rclpy.exceptions import ParameterException
 from rclpy.experimental import EventsExecutor
@@ -12,8 +13,9 @@ from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
 from rclpy.parameter import Parameter as RosParameter
 from rclpy.signals import SignalHandlerOptions
-from rclpy.utilities import remove_ros_args
 
+from .descriptors import descriptor_of
+from .help_text import help_text, wants_help
 from .listener import Listener
 from .parameter_files import given_by_wildcard
 from .parameters import Parameter, ParameterError
@@ -38,9 +40,24 @@ class NodeError(RuntimeError):
 
 
 class LoopNode(Node):
-    """A node with parameters from `Parameter` descriptions, driven by its own `run`."""
+    """A node with parameters from `Parameter` descriptions, driven by its own `run`.
 
-    def __init__(self, name, parameters):
+    Attributes
+    ----------
+    NAME : str
+        Class attribute: its name, where it is not remapped.
+    PARAMETERS : tuple of Parameter
+        Class attribute.
+    SERVICES : tuple of (str, str, str)
+        Class attribute: name, type and meaning of each, below the node's own name.
+    settings : dict
+        Values of the parameters by name.
+    """
+
+    NAME, PARAMETERS, SERVICES = "", (), ()
+
+    def __init__(self):
+        name = self.NAME
         try:
             super().__init__(name)
         except ParameterException:  # whose words do not tell what is accepted
@@ -48,16 +65,47 @@ class LoopNode(Node):
                 if own.name in self._parameter_overrides:
                     _checked(own, self._parameter_overrides[own.name].value, name)
             raise
-        self.settings = {parameter.name: self._declare(parameter) for parameter in parameters}
+        self._changeable, self._change = {}, None
+        self.settings = {parameter.name: self._declare(parameter) for parameter in self.PARAMETERS}
         self._inputs = []
         self.patience = None
         self.stopping = lambda: False
 
-    def declare_more(self, parameters):
-        """Declare further parameters, which depend on those known first; returns their values by name."""
-        values = {parameter.name: self._declare(parameter) for parameter in parameters}
+    @classmethod
+    def parameters_by_title(cls):
+        """Return the parameters that it may have, for its help: title -> descriptions."""
+        return {f"parameters of {cls.NAME}": cls.PARAMETERS}
+
+    def declare_changeable(self, parameters, change):
+        """Declare further parameters, which may change while the node runs; returns their values by name.
+
+        `change(values)` is called with new values that are acceptable one by one, between two other callbacks; it takes
+        them all, or raises `ParameterError` and takes none.
+        """
+        values = {parameter.name: self._declare(parameter, fixed=False) for parameter in parameters}
         self.settings |= values
+        self._changeable, self._change = {parameter.name: parameter for parameter in parameters}, change
         return values
+
+    def set_parameters_atomically(self, parameter_list):
+        """Change parameters that may change, all or none, as ROS's services ask; the others say that they are fixed."""
+        try:
+            asked = {each.name: self._accepted(each) for each in parameter_list}
+            known = {name: value for name, value in asked.items() if name in self._changeable}
+            if known:
+                self._change(known)
+        except ParameterError as error:
+            return SetParametersResult(successful=False, reason=plain_line(str(error)))
+        self.settings |= known
+        return super().set_parameters_atomically([RosParameter(name, value=value) for name, value in asked.items()])
+
+    def _accepted(self, asked):
+        if asked.name in self._changeable:
+            return self._changeable[asked.name].check(asked.value)
+        if self.has_parameter(asked.name):
+            raise ParameterError(f"parameter '{asked.name}' is fixed while the node runs; give it at the node's start")
+        known = ", ".join(sorted(self._changeable)) or "none"
+        raise ParameterError(f"there is no parameter '{asked.name}'; those that may change are: {known}")
 
     def listen(self, message_type, topic, on_message, qos, read=None):
         """Subscribe as `Listener` does; returns the subscription."""
@@ -106,25 +154,13 @@ class LoopNode(Node):
         """Hand in the executor's spin function and the stop flag."""
         self.patience, self.stopping = Patience(spin), stopping
 
-    def _declare(self, parameter):
-        descriptor = ParameterDescriptor(
-            description=f"{parameter.description} [{parameter.unit}]" if parameter.unit else parameter.description,
-            additional_constraints=f"accepted is {parameter.accepted}",
-            read_only=True,
-        )
-        if parameter.low is not None:
-            if isinstance(parameter.default, int):
-                limits = IntegerRange(from_value=parameter.low, to_value=parameter.high, step=0)
-                descriptor.integer_range = [limits]
-            else:
-                limits = FloatingPointRange(from_value=parameter.low, to_value=parameter.high, step=0.0)
-                descriptor.floating_point_range = [limits]
+    def _declare(self, parameter, fixed=True):
         given = self._parameter_overrides.get(parameter.name)
         if given is not None and (value := parameter.converted(given.value)) is not given.value:
             # ROS tells 5 and 5.0 apart, and takes the one not for the other
             self._parameter_overrides[given.name] = RosParameter(given.name, value=value)
         try:
-            value = self.declare_parameter(parameter.name, parameter.default, descriptor).value
+            value = self.declare_parameter(parameter.name, parameter.default, descriptor_of(parameter, fixed)).value
         except ParameterException:
             value = self._parameter_overrides[parameter.name].value
         return _checked(parameter, value, self.get_name())
@@ -145,6 +181,8 @@ def start_ros(args=()):
     ParameterError
         The arguments, the program's name first, are not those of ROS 2.
     """
+    if foreign := _outside(args[1:]):
+        raise ParameterError(f"arguments {foreign} do not stand behind --ros-args; {_ACCEPTED}")
     remove_unfinished_segments()
     set_logger_level("rcl", LoggingSeverity.FATAL)  # it says for itself, in more words, what the error says
     try:
@@ -161,8 +199,17 @@ def start_ros(args=()):
         raise ParameterError(f"argument {error.object!r} is no text in UTF-8; {_ACCEPTED}") from None
     finally:
         set_logger_level("rcl", LoggingSeverity.UNSET)
-    if foreign := remove_ros_args(args)[1:]:
-        raise ParameterError(f"arguments {foreign} are not known; {_ACCEPTED}")
+
+
+def _outside(words):
+    """Return the words that are not between --ros-args and --; of these ROS takes `a:=b` for a remapping."""
+    outside, of_ros = [], False
+    for word in words:
+        if word == ("--" if of_ros else "--ros-args"):
+            of_ros = not of_ros
+        elif not of_ros:
+            outside.append(word)
+    return outside
 
 
 def run_node(make_node, args=None, companions=()):
@@ -171,12 +218,15 @@ def run_node(make_node, args=None, companions=()):
     Further nodes, made by `companions`, share its process and executor: they answer callbacks while it waits. The
     signals only set a flag, once; rclpy's own handlers end a node in the middle of whatever it does.
     """
+    arguments = sys.argv if args is None else args
+    if wants_help(arguments):
+        print(help_text(Path(arguments[0]).name, [make_node, *companions]))
+        return 0
     stop = []
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stop.append(True))
     nodes = []
     try:
-        arguments = sys.argv if args is None else args
         start_ros(arguments)
         executor = EventsExecutor()
         for make in (*companions, make_node):

@@ -13,6 +13,7 @@ DRIVE_STATE = "drive_state"
 DRIVE_DESCRIPTION = "drive_description"
 DRIVE_COMMAND = "drive_command"
 CMD_VEL = "cmd_vel"
+LAW_PARAMETERS = "law_parameters"
 ROAD_PROFILE = "road_profile"
 VEHICLE_DESCRIPTION = "vehicle_description"
 RECORDED = "recorder/recorded"
@@ -30,6 +31,7 @@ IMU_TYPE = "sensor_msgs/msg/Imu"
 COIL_CURRENT_TYPE = "trackvib_msgs/msg/CoilCurrent"
 MOUNT_STATE_TYPE = "trackvib_msgs/msg/MountState"
 MOUNT_DESCRIPTION_TYPE = "trackvib_msgs/msg/MountDescription"
+LAW_PARAMETERS_TYPE = "rcl_interfaces/msg/ParameterEvent"
 ODOMETRY_TYPE = "nav_msgs/msg/Odometry"
 DRIVE_STATE_TYPE = "trackvib_msgs/msg/DriveState"
 DRIVE_DESCRIPTION_TYPE = "std_msgs/msg/String"
@@ -68,6 +70,7 @@ class Topic(NamedTuple):
     publisher: str  # node
     rate: str  # in simulated time, at the default rates
     meaning: str
+    readers: tuple = ()  # nodes that listen to it, beside the recorder
 
 
 TOPICS = (
@@ -77,6 +80,7 @@ TOPICS = (
         "simulator",
         "1 kHz",
         "Lower (hull) end of the mounts: specific force and angular velocity through the low-pass, body axes.",
+        ("controller",),
     ),
     Topic(
         POWERTRAIN_IMU,
@@ -84,6 +88,7 @@ TOPICS = (
         "simulator",
         "1 kHz",
         "Upper (powertrain) end of the mounts, likewise.",
+        ("controller",),
     ),
     Topic(
         FURTHER_IMU,
@@ -98,6 +103,14 @@ TOPICS = (
         "controller",
         "1 kHz",
         "The answer: demanded current of each coil, and the stamp of the sample that it answers.",
+        ("simulator",),
+    ),
+    Topic(
+        LAW_PARAMETERS,
+        LAW_PARAMETERS_TYPE,
+        "controller",
+        "as they change",
+        "Changed parameters of the law; the stamp is the last sample that was answered with the old ones.",
     ),
     Topic(
         MOUNT_STATE,
@@ -112,6 +125,7 @@ TOPICS = (
         "simulator",
         "once",
         "The mounts by name, kind and place; how many coils there are.",
+        ("controller",),
     ),
     Topic(ODOMETRY, ODOMETRY_TYPE, "simulator", "100 Hz", "Pose and velocity of the hull."),
     Topic(
@@ -120,6 +134,7 @@ TOPICS = (
         "simulator",
         "100 Hz",
         "Distance along the path, wanted speed and curvature, engine speed, gear, speed and torque of the sprockets.",
+        ("road_excitation",),
     ),
     Topic(DRIVE_DESCRIPTION, DRIVE_DESCRIPTION_TYPE, "simulator", "once", "The drive file in use; empty if none."),
     Topic(
@@ -128,6 +143,7 @@ TOPICS = (
         "anybody",
         "any",
         "Wanted speed (`linear.x`) and yaw rate (`angular.z`), in force from the next control period on.",
+        ("simulator",),
     ),
     Topic(
         DRIVE_COMMAND,
@@ -142,6 +158,7 @@ TOPICS = (
         "road_excitation",
         "on demand",
         "Patches of road, left and right.",
+        ("simulator",),
     ),
     Topic(VEHICLE_DESCRIPTION, VEHICLE_DESCRIPTION_TYPE, "simulator", "once", "The vehicle file in use."),
     Topic(TF, TF_TYPE, "simulator", "`view_rate`", "Frames of hull, bodies and tensioners, `odom` above them all."),
@@ -180,6 +197,7 @@ TOPICS = (
         "recorder",
         "as it writes",
         "Time up to which the bag holds every sample: of several topics, the slowest.",
+        ("simulator",),
     ),
     Topic(
         RECORDED_ANSWERS,
@@ -187,8 +205,9 @@ TOPICS = (
         "recorder",
         "as it writes",
         "Time of the latest sample whose answer the bag holds.",
+        ("simulator",),
     ),
-    Topic(CLOCK, CLOCK_TYPE, "simulator", "100 Hz", "Simulated time."),
+    Topic(CLOCK, CLOCK_TYPE, "simulator", "100 Hz", "Simulated time.", ("simulator",)),
     Topic(
         DIAGNOSTICS,
         DIAGNOSTICS_TYPE,

@@ -36,6 +36,7 @@ RARE = {  # read message by message
     topics.DRIVE_DESCRIPTION: topics.DRIVE_DESCRIPTION_TYPE,
     topics.MOUNT_DESCRIPTION: topics.MOUNT_DESCRIPTION_TYPE,
     topics.ROAD_PROFILE: topics.ROAD_PROFILE_TYPE,
+    topics.LAW_PARAMETERS: topics.LAW_PARAMETERS_TYPE,
     TF_STATIC: TF_TYPE,
 }
 TYPES = {end: columns.type_name for end, columns in COLUMNS.items()} | RARE

@@ -1,9 +1,13 @@
 """What made a bag, as it stands in the bag: as metadata records for programs, as attachments for people."""
 
+from mr_mount_controller.node_base.parameters import ParameterError
+
+from ..numerics.units import NANO
 from .metadata import to_yaml
 from .versions import versions
 
 PARAMETERS_OF = "parameters of "  # and a node's full name
+_VALUES = {1: "bool_value", 2: "integer_value", 3: "double_value", 4: "string_value"}  # rcl_interfaces/ParameterType
 
 
 def write_versions(bag):
@@ -34,6 +38,29 @@ def parameters_with(provenance, name):
     Nodes are found by what they have because they can be named as one likes.
     """
     return next(((node, values) for node, values in parameters(provenance).items() if name in values), ("", {}))
+
+
+def recorded_value(parameter, recorded):
+    """Return what was recorded as text, in the type of the `Parameter`; one younger than the bag has its default.
+
+    Raises
+    ------
+    ParameterError
+        It cannot be used.
+    """
+    text = recorded.get(parameter.name, str(parameter.default))
+    kind = type(parameter.default)
+    try:
+        return parameter.check(text == "True" if kind is bool else kind(text))
+    except ValueError as error:
+        raise ParameterError(f"recorded {parameter.name} is {text!r}: {error}") from None
+
+
+def law_change(message):
+    """Return stamp [ns] and new values by name that a message on `law_parameters` tells."""
+    values = {each.name: getattr(each.value, _VALUES[each.value.type]) for each in message.changed_parameters
+              if each.value.type in _VALUES}  # fmt: skip
+    return message.stamp.sec * NANO + message.stamp.nanosec, values
 
 
 def _parameter_file(node, parameters):

@@ -27,6 +27,7 @@ from .mcap_walk import Walk
 from .mounting_of_bag import mounting_of
 from .opening import how_to_convert, opened
 from .places import PLACE_TYPES, Places
+from .provenance import law_change
 from .raw_messages import NO_SCHEMA
 from .recording import LoopCounts, Recording
 from .sources import Sources, end_of_sensor, is_csv
@@ -107,6 +108,7 @@ class _Reading:
         self._accelerations, self._places, self._transforms = Accelerations(sources, by_log), Places(by_log), {}
         self._columns, self._roads, self._texts, self._mountings = {}, {}, {}, {}  # by topic
         self._loop_counts, self._diagnostics, self._ros_1 = [], {}, set()
+        self._law_changes = {}  # by topic
         self._provenance, self._counts, self._complete = {}, Counter(), True
 
     def read(self, file, on_progress):
@@ -177,6 +179,8 @@ class _Reading:
                 self._mountings[topic] = described(message)
             elif end == TF_STATIC:
                 self._transforms |= transforms_in(message)
+            elif end == topics.LAW_PARAMETERS:
+                self._law_changes.setdefault(topic, []).append(law_change(message))
             elif end == topics.ROAD_PROFILE:
                 # copies, for these arrays would keep the whole part in memory
                 heights = message.left.copy(), message.right.copy()
@@ -195,7 +199,7 @@ class _Reading:
     def recording(self, path):
         """Return it all."""
         found = {end: [] for end in TYPES}
-        for topic in self._columns | self._roads | self._texts | self._mountings:
+        for topic in self._columns | self._roads | self._texts | self._mountings | self._law_changes:
             found[end_of(topic)].append(topic)
         if not self._accelerations.taken and self._ros_1:
             raise BagError(
@@ -239,6 +243,7 @@ class _Reading:
             odometry=odometry,
             drive=columns.get(topics.DRIVE_STATE),
             commands=columns.get(topics.DRIVE_COMMAND),
+            law_changes=tuple(self._law_changes.get(chosen.get(topics.LAW_PARAMETERS), ())),
             road=self._roads.get(chosen.get(topics.ROAD_PROFILE), []),
             vehicle=self._texts.get(chosen.get(topics.VEHICLE_DESCRIPTION)),
             drive_file=self._texts.get(chosen.get(topics.DRIVE_DESCRIPTION)),

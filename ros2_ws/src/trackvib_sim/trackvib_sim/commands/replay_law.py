@@ -17,7 +17,7 @@ from ..analysis.stamps import start_of
 from ..analysis.summary import summarise
 from ..bags.copying import copy_bag
 from ..bags.files import called
-from ..bags.provenance import PARAMETERS_OF, parameters_with, write_parameters, write_versions
+from ..bags.provenance import PARAMETERS_OF, parameters_with, recorded_value, write_parameters, write_versions
 from ..bags.reading import read_recording
 from ..bags.writing import BagWriter
 from ..console import followed
@@ -42,14 +42,23 @@ def run_replay_law(bag, law, out, console):
     recording.require("mounts", "road", "vehicle")
     analyse(recording)  # too short a drive is refused before anything is done
     simulation, _ = prepare_again(recording)
-    chosen = find_law(law)(1.0 / simulation.settings.rates.control)
+    chosen, changes = _law(recording, law, simulation.settings.rates.control)
     with all_or_nothing(out) as folder:
-        ended = _drive(recording, simulation, chosen, law, folder / "bag", console)
+        ended = _drive(recording, simulation, (chosen, changes), law, folder / "bag", console)
         labels, summary = _compare(recording, read_recording(folder / "bag"), law, ended, folder)
         summary["mounts_J"] = mount_energy_account(simulation.state.mount_energy)._asdict()
         (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
     console.print(_table(summary, labels))
     console.print(f"{ended}; left in {folder}: bag/, summary.json, replay.png", soft_wrap=True)
+
+
+def _law(recording, name, rate):
+    """Return the law for a rate [Hz], and changes of its parameters: as recorded, if the run had that law."""
+    law, (_, recorded) = find_law(name), parameters_with(recording.provenance, "law")
+    if recorded.get("law") != name:
+        return law(1.0 / rate), ()
+    values = {parameter.name: recorded_value(parameter, recorded) for parameter in law.parameters}
+    return law(1.0 / rate, **values), recording.law_changes
 
 
 def _compare(recording, rerun, law, ended, folder):
@@ -73,8 +82,9 @@ def _compare(recording, rerun, law, ended, folder):
     return labels, {"replay": how, **_levels(*map(summarise, analyses))}
 
 
-def _drive(recording, simulation, chosen, law, path, console):
+def _drive(recording, simulation, chosen_and_changes, law, path, console):
     """Run to the recorded end, or as far as road and vehicle go, into a bag; returns how it ended."""
+    chosen, changes = chosen_and_changes
     periods = int(recording.chassis.stamp[-1]) // simulation.settings.rates.period
     writer = BagWriter(path)
     ended, lockstep = "driven to the recorded end", None
@@ -85,6 +95,7 @@ def _drive(recording, simulation, chosen, law, path, console):
             topics.MOUNT_DESCRIPTION,
             topics.DRIVE_DESCRIPTION,
             topics.DRIVE_COMMAND,
+            *((topics.LAW_PARAMETERS,) if changes else ()),
         )
         controller, _ = parameters_with(recording.provenance, "law")
         other = ("versions.yaml", f"parameters{controller}.yaml")
@@ -93,7 +104,7 @@ def _drive(recording, simulation, chosen, law, path, console):
         space = recording.topics[topics.CHASSIS_IMU].removesuffix(topics.CHASSIS_IMU)
         rerun = RerunBag(writer, known, space, simulation)
         rerun.begin()
-        loop = periods_under_law(simulation, chosen)
+        loop = periods_under_law(simulation, chosen, changes=changes)
         for _ in followed(range(periods), f"driving under {law}", console):
             if not simulation.road_is_enough():
                 ended = f"the recorded road ends here: {simulation.distance:.1f} m, t = {simulation.time / NANO:.3f} s"

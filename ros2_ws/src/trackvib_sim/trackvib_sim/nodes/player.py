@@ -25,7 +25,7 @@ from ..numerics.units import NANO
 from .messages import message_type
 from .older_messages import renewal
 from .partners import Gathering
-from .run_control import RunControl
+from .run_control import RunControl, services
 
 PARAMETERS = (
     Parameter("bag", "", "Folder of the bag, or one .mcap file."),
@@ -52,8 +52,11 @@ class PlayerNode(LoopNode):
     player's own, whether there is one in the bag or not.
     """
 
+    NAME, PARAMETERS = "player", PARAMETERS
+    SERVICES = services("instant of the bag")
+
     def __init__(self):
-        super().__init__("player", PARAMETERS)
+        super().__init__()
         self._control = RunControl(self, lambda: self._time)
         largest_chunk.set(self.settings["largest_chunk"])
         try:

@@ -71,8 +71,10 @@ class RecorderNode(LoopNode):
     A bag holds one epoch: with time that goes back, its messages would be mixed with those of the run before.
     """
 
+    NAME, PARAMETERS = "recorder", PARAMETERS
+
     def __init__(self):
-        super().__init__("recorder", PARAMETERS)
+        super().__init__()
         self._choice = TopicChoice(self, self.settings["topics"], self.settings["pattern"])
         self._path = self.settings["bag"] or f"bag_{datetime.now():%Y%m%dT%H%M%S}"
         self._epoch = 1

@@ -31,8 +31,10 @@ _FARTHEST = 1e8  # m, more than the longest run goes
 class RoadExcitationNode(LoopNode):
     """Follows the vehicle along its path and publishes the patches of road that it will need."""
 
+    NAME, PARAMETERS = "road_excitation", PARAMETERS
+
     def __init__(self):
-        super().__init__("road_excitation", PARAMETERS)
+        super().__init__()
         s = self.settings
         self._road = _road(s)
         self._feeder = RoadFeeder(self._road, s["horizon"])

@@ -5,6 +5,19 @@ from std_srvs.srv import Trigger
 from ..numerics.units import NANO
 
 
+def services(step):
+    """Return name, type and meaning of each service, `step` being what one takes a paused run further."""
+    return tuple(
+        (name, "std_srvs/srv/Trigger", meaning)
+        for name, meaning in (
+            ("pause", "Lets time stand still."),
+            ("resume", "Lets a paused run go on."),
+            ("step", f"Takes a paused run one {step} further."),
+            ("reset", "Begins the run anew."),
+        )
+    )
+
+
 class RunControl:
     """Knows in which state and epoch the run is and what the services ask for.
 

@@ -18,7 +18,7 @@ from .answers import Answers, misfits
 from .health import health, summary
 from .output import DIAGNOSTICS_RATE, SimulatorOutput
 from .partners import Gathering, RecorderLag, SecondClock
-from .run_control import RunControl
+from .run_control import RunControl, services
 from .simulator_parameters import PARAMETERS, prepare
 from .timing import PhaseClock
 
@@ -29,8 +29,11 @@ _ROAD_PATIENCE = 2.0  # s for the road of a run that begins anew
 class SimulatorNode(LoopNode):
     """Lock-step or real-time master of the closed loop."""
 
+    NAME, PARAMETERS = "simulator", PARAMETERS
+    SERVICES = services("period")
+
     def __init__(self):
-        super().__init__("simulator", PARAMETERS)
+        super().__init__()
         s = self.settings
         self._waits_for_answers = s["pace"] == "lockstep"
         self._simulation, usable, vehicle_text, drive_text = prepare(s)

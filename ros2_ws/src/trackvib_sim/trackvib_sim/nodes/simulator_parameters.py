@@ -5,7 +5,7 @@ from contextlib import suppress
 from mr_mount_controller.node_base.parameters import Parameter, ParameterError
 from mr_mount_controller.node_base.topics import DRIVE_DESCRIPTION, VEHICLE_DESCRIPTION
 
-from ..bags.provenance import parameters_with
+from ..bags.provenance import parameters_with, recorded_value
 from ..data import find_vehicle
 from ..numerics.units import RPM
 from ..simulation.settings import Rates, RunSettings
@@ -130,7 +130,7 @@ def prepare_again(recording):
     _, recorded = parameters_with(recording.provenance, "physics_rate")
     if not recorded:
         raise ParameterError("the bag does not tell the parameters of its simulator")
-    values = {parameter.name: _value(parameter, recorded) for parameter in PARAMETERS}
+    values = {parameter.name: recorded_value(parameter, recorded) for parameter in PARAMETERS}
     if values["drive"] and not recording.drive_file:
         raise ParameterError(f"the bag holds no {DRIVE_DESCRIPTION}, but its run had a drive file")
     vehicle = parse_vehicle(recording.vehicle, VEHICLE_DESCRIPTION)
@@ -141,13 +141,3 @@ def prepare_again(recording):
         with suppress(ValueError):  # which the simulator refused as well
             simulation.road.add(*patch)
     return simulation, values
-
-
-def _value(parameter, recorded):
-    """What was recorded as text, in the type of the parameter; one that is younger than the bag has its default."""
-    text = recorded.get(parameter.name, str(parameter.default))
-    kind = type(parameter.default)
-    try:
-        return parameter.check(text == "True" if kind is bool else kind(text))
-    except ValueError as error:
-        raise ParameterError(f"recorded {parameter.name} is {text!r}: {error}") from None

@@ -59,6 +59,9 @@ class TopicChoice:
             ) from None
         if not self.named and self._pattern is None:
             raise ParameterError("recorder: parameters 'topics' and 'pattern' are empty, nothing is to be recorded")
+        # rare and telling: who records what a law answers gets what changed of it along
+        answers = node.resolve_topic_name(topics.COIL_CURRENT) in self.named
+        self._along = {node.resolve_topic_name(topics.LAW_PARAMETERS)} if answers else set()
         self._own = {node.resolve_topic_name(name) for name in (topics.RECORDED, topics.RECORDED_ANSWERS)}
 
     def __str__(self):
@@ -67,7 +70,7 @@ class TopicChoice:
 
     def present(self):
         """Return the names of all topics of the choice that have a publisher."""
-        names = set(self.named)
+        names = self.named | self._along
         if self._pattern:
             known = dict(self._node.get_topic_names_and_types()).keys() - self._own
             space = self._node.get_namespace().rstrip("/")

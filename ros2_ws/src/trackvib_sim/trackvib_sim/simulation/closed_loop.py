@@ -1,9 +1,10 @@
 """The closed loop in one process: the same simulation, road and law as the nodes run, without any transport."""
 
+from collections import deque
 from typing import NamedTuple
 
 import numpy as np
-from mr_mount_controller.laws.base import ControlLaw, Sample, answer
+from mr_mount_controller.laws.base import ControlLaw, Sample, answer, changed_law
 
 from ..numerics.units import NANO
 from ..road.feeder import HasHeights, RoadFeeder
@@ -81,11 +82,14 @@ def run_closed_loop(simulation: Simulation, road: HasHeights, law: ControlLaw, p
     return record
 
 
-def periods_under_law(simulation, law, feed=lambda: None):
+def periods_under_law(simulation, law, feed=lambda: None, changes=()):
     """Yield the `Lockstep` and the law's `Sample` after each control period under a control law, without end.
 
-    `feed()` is called before each period, to see to the road ahead. Raises as `run_closed_loop` does.
+    `feed()` is called before each period, to see to the road ahead. `changes` are those of the law's parameters in
+    their order: the last stamp [ns] that the law answers with the old ones, and the new values by name. Raises as
+    `run_closed_loop` does, and `ParameterError` for a change that the law cannot take.
     """
+    changes = deque(changes)
     lockstep = Lockstep(simulation.mounting.coils, simulation.settings.passive_current, (-np.inf, np.inf))
     readings = Readings(simulation)
     names = [sensor.name for sensor in simulation.sensors[: POWERTRAIN + 1]]
@@ -96,6 +100,8 @@ def periods_under_law(simulation, law, feed=lambda: None):
         read = readings.take()
         vectors = (tuple(vector.tolist()) for name in names for vector in read[name])
         sample = Sample(simulation.time / NANO, *vectors)
+        while changes and changes[0][0] < simulation.time:
+            law = changed_law(law, changes.popleft()[1])
         lockstep.publish(simulation.time)
         lockstep.offer(simulation.time, answer(law, sample))
         yield lockstep, sample
