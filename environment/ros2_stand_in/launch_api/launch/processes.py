@@ -70,6 +70,8 @@ class Processes:
             signal.signal(number, lambda number, _: self._interrupts.append(number))
         while self._running:
             self._look(context)
+        for handler in context.handlers:
+            handler.shut_down(context)
         return int(self._died)
 
     def close(self):
@@ -109,7 +111,7 @@ class Processes:
         if self._stopped is None:
             context.visit(each.action.on_exit)
             for handler in list(context.handlers):
-                handler.handle(context, each.action)
+                handler.process_ended(context, each.action)
 
     def _escalate(self):
         passed = time.monotonic() - self._stopped
