@@ -24,9 +24,10 @@ class Extra(NamedTuple):
 
 STUDIES = Extra("studies", "the independent engine", (3, 10))
 TESTS = Extra("tests", "what runs and checks the tests", (3, 10))
+GYM = Extra("gym", "the interface of environments to learn in", (3, 10))
 VIEW = Extra("view", "the viewer", (3, 11))
 DOCS = Extra("docs", "the generator of the documents' site", (3, 10))
-EXTRAS = (STUDIES, TESTS, VIEW, DOCS)
+EXTRAS = (STUDIES, TESTS, GYM, VIEW, DOCS)
 
 
 def wanted(verb: str, arguments: list) -> tuple:
@@ -35,7 +36,7 @@ def wanted(verb: str, arguments: list) -> tuple:
     if verb == "setup":
         return tuple(extra for extra in EXTRAS if f"--{extra.name}" in options)
     if verb == "test":
-        return (STUDIES, TESTS)
+        return (STUDIES, TESTS, GYM)
     if options & {"-h", "--help"}:
         return ()
     if verb == "docs":

@@ -1,4 +1,4 @@
-"""Several vehicles in one ROS domain, each whole in a namespace of its own, and what runs are told by parameter files."""
+"""Several vehicles in one ROS domain, each whole in a namespace; what runs are told by parameter files."""
 
 import ast
 import os
@@ -70,7 +70,7 @@ def streams(bag):
 
 
 def test_a_vehicle_in_a_namespace_is_as_alone(side_by_side, recorded_run):
-    """Every topic of its bag lies in the namespace, clock and diagnostics too, and all bits are those of a run alone."""
+    """Every topic of its bag lies in the namespace, its clock too, and all bits are those of a run alone."""
     left, alone = streams(side_by_side[0] / "left" / "bag"), streams(recorded_run / "bag")
     assert {f"/lab/left{topic}" for topic in alone} == set(left)
     for topic in alone.keys() - {"/clock", "/diagnostics", "/road_profile"}:  # which tell again while a run stands

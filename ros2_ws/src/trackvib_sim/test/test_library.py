@@ -25,14 +25,12 @@ OF_ROS = {
     "mr_mount_controller.node_base.loop_node",
     "mr_mount_controller.node_base.packed_message",
     "mr_mount_controller.node_base.qos",
-    "trackvib_sim.commands.live_view",
-    "trackvib_sim.commands.run",
     "trackvib_sim.commands.replay_controller",
     "trackvib_sim.commands.replay_law",
     "trackvib_sim.view.live",
 }
 # What a bare installation has not.
-EXTRAS = ("click", "cma", "distributed", "jinja2", "matplotlib", "pinocchio", "plotly", "pyarrow", "rich")
+EXTRAS = ("click", "cma", "distributed", "gymnasium", "jinja2", "matplotlib", "pinocchio", "plotly", "pyarrow", "rich")
 BASE = ("rui", "numerics", "road", "vehicle", "simulation", "bags", "analysis.analyse", "data")
 
 

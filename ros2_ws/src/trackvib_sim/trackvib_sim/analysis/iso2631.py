@@ -8,6 +8,7 @@ from math import inf, pi, sqrt
 from typing import NamedTuple
 
 import numpy as np
+from scipy.signal import bilinear
 
 from .vibration import through
 
@@ -32,18 +33,40 @@ WEIGHTINGS = {
 
 
 def transfer(name, frequency):
-    """Return the transfer function (n,) of a weighting at frequencies (n,) [Hz] above 0, as annex A writes it."""
+    """Return the transfer function (n,) of a weighting at frequencies (n,) [Hz], as annex A writes it."""
     p = 2j * pi * np.asarray(frequency, dtype=float)
+    found = np.ones_like(p)
+    for numerator, denominator in _sections(name):
+        found *= np.polyval(numerator, p) / np.polyval(denominator, p)
+    return found
+
+
+def weighting_filter(name, rate):
+    """Return a weighting as a recursive filter of second-order sections (n, 6) for samples at a rate [Hz].
+
+    It is for what must be weighted while it comes, for the bilinear transform bends frequencies: at 1 kHz the corner
+    at 100 Hz lies at 97 Hz.
+    """
+    require_rate(rate, "ISO 2631-1")
+    return np.array([np.concatenate(bilinear(*section, rate)) for section in _sections(name)])
+
+
+def _sections(name):
+    """Return numerator and denominator of each part of annex A's transfer function, polynomials (3,) in p."""
     weighting = WEIGHTINGS[name]
     w1, w2 = (2.0 * pi * corner for corner in weighting.limits)
     (w3, w4), q4 = (2.0 * pi * corner for corner in weighting.transition[:2]), weighting.transition[2]
-    found = 1.0 / (1.0 + sqrt(2.0) * w1 / p + (w1 / p) ** 2) / (1.0 + sqrt(2.0) * p / w2 + (p / w2) ** 2)
-    found *= (1.0 + p / w3) / (1.0 + p / (q4 * w4) + (p / w4) ** 2)
+    sections = [
+        ((1.0, 0.0, 0.0), (1.0, sqrt(2.0) * w1, w1**2)),
+        ((0.0, 0.0, 1.0), (1.0 / w2**2, sqrt(2.0) / w2, 1.0)),
+        ((0.0, 1.0 / w3, 1.0), (1.0 / w4**2, 1.0 / (q4 * w4), 1.0)),
+    ]
     if weighting.step:
         f5, q5, f6, q6 = weighting.step
         w5, w6 = 2.0 * pi * f5, 2.0 * pi * f6
-        found *= (1.0 + p / (q5 * w5) + (p / w5) ** 2) / (1.0 + p / (q6 * w6) + (p / w6) ** 2) * (w5 / w6) ** 2
-    return found
+        part = (w5 / w6) ** 2
+        sections.append(((part / w5**2, part / (q5 * w5), part), (1.0 / w6**2, 1.0 / (q6 * w6), 1.0)))
+    return sections
 
 
 def weighted(acceleration, name, rate):
