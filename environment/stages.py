@@ -71,7 +71,7 @@ def plan(setup: Setup, view: bool) -> list:
         Stage("packages", f"setting up (once): {packages}", "about 1 min with a fast network", places.venv, venv,
               lambda task: _make_venv(setup, task)),
         *([viewer] if view else []),
-        Stage("workspace", "building the ROS 2 packages", "about 40 s", places.workspace, workspace,
+        Stage("workspace", "building the ROS 2 packages", "about 70 s", places.workspace, workspace,
               lambda task: _make_workspace(setup, task)),
         Stage("kernels", "compiling the simulation", "about 30 s", places.kernels, kernels,
               lambda task: _make_kernels(setup, kernels, task)),
@@ -176,9 +176,9 @@ def _colcon(places: Places, ros: Ros) -> list:
 
 
 def _packages(places: Places, ros: Ros) -> list:
-    """Folders with ROS 2 packages: ours, and the message of /tf where ROS 2 comes without it."""
-    has_tf2 = ros.prefix is not None and (ros.prefix / "share" / places.tf2_msgs.name).is_dir()
-    return [places.sources] if has_tf2 else [places.sources, places.tf2_msgs]
+    """Folders with ROS 2 packages: ours, and of the standard interfaces those that ROS 2 comes without."""
+    there = ros.prefix / "share" if ros.prefix else None
+    return [places.sources, *(each for each in places.interfaces if there is None or not (there / each.name).is_dir())]
 
 
 def _make_kernels(setup: Setup, key: str, task: Task) -> None:

@@ -5,6 +5,7 @@ Other than those they answer when what was asked for is done.
 
 from functools import partial
 
+from mr_mount_controller.node_base.plain_text import shortened
 from rclpy.action import ActionServer, CancelResponse
 from rclpy.task import Future
 from simulation_interfaces.action import SimulateSteps
@@ -165,9 +166,8 @@ class StandardServices:
             await _Happened(lambda last=last: control.periods > last or self._is_over(epoch, cancelled))
             if control.periods == last:
                 control.drop_steps(1)
-                return _failed(
-                    f"the run was resumed or reset, or this was cancelled, after {done - 1} of {count} steps"
-                )
+                why = "cancelled" if cancelled else "the run was resumed or reset"
+                return _failed(f"{why} after {done - 1} of {count} steps")
             tell(done)
         return _ok()
 
@@ -195,7 +195,9 @@ class StandardServices:
             response.state, response.result = self._entities.state(request.entity), _ok()
         except KeyError:
             known = ", ".join(self._entities.names)
-            response.result = _failed(f"there is no {request.entity!r}, there are: {known}", Result.RESULT_NOT_FOUND)
+            response.result = _failed(
+                f"there is no {shortened(repr(request.entity))}, there are: {known}", Result.RESULT_NOT_FOUND
+            )
         return response
 
 
