@@ -5,6 +5,8 @@ import signal
 
 import pytest
 
+from .conftest import PACKAGES
+
 pytestmark = pytest.mark.system
 SLOW = pytest.mark.slow(reason="starts nodes in every order")
 
