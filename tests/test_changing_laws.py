@@ -53,5 +53,7 @@ def test_a_run_with_changes_is_replayed(start_node, observer, tmp_path):
     trackvib("replay", tmp_path / "bag", "--law", "skyhook", "--out", tmp_path / "again")
     again = read_recording(tmp_path / "again" / "bag")
     assert again.law_changes == bag.law_changes
+    printed = trackvib("replay", tmp_path / "bag", "--controller", "skyhook", "--out", tmp_path / "asked")
+    assert "identical to the recorded ones to the last bit" in printed
     last = len(again.answers.current)
     assert last > 2900 and again.answers.current.tobytes() == bag.answers.current[:last].tobytes()
