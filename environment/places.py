@@ -12,7 +12,7 @@ class Places:
         self.environment = root / "environment"
         self.starter = self.environment / "start_module.py"
         self.home = root / ".trackvib"
-        self.tf2_msgs = self.environment / "tf2_msgs"
+        self.interfaces = (self.environment / "tf2_msgs", self.environment / "simulation_interfaces")
         self.lock = self.home / "lock"
         self.logs = self.home / "log"
         self.venv = self.home / "venv"

@@ -137,7 +137,11 @@ def _make_workspace(setup: Setup, task: Task) -> None:
     script = ros.prefix and ros.prefix / "setup.bash"
     of_ros = ros2.changes(script, _bare()) if script and script.exists() else {"first": {}, "set": {}}
     install = places.workspace / "install"
-    task.run([*_colcon(places, ros), "--install-base", str(install)], _build_variables(setup, of_ros))
+    variables = _build_variables(setup, of_ros)
+    try:
+        task.run([*_colcon(places, ros, "parallel"), "--install-base", str(install)], variables)
+    except SetupError:  # one package after the other, so that the log ends with the output of the one that fails
+        task.run([*_colcon(places, ros, "sequential"), "--install-base", str(install)], variables)
     _mend_first_lines(install)
     # Sourced where nothing else was: what a variable holds already would not be seen as the workspace's.
     env = activate.before_workspace(places, ros, _bare())
@@ -161,24 +165,23 @@ def _build_variables(setup: Setup, of_ros: dict) -> dict:
     return env
 
 
-def _colcon(places: Places, ros: Ros) -> list:
+def _colcon(places: Places, ros: Ros, executor: str) -> list:
     """The command that builds the workspace, up to the folder to install to."""
     cmake = ["-G", "Ninja", f"-DPython3_EXECUTABLE={places.python}", "-DBUILD_TESTING=OFF"]
     if not ros.prefix:
         cmake.append(f"-DCMAKE_PROJECT_INCLUDE={places.environment / 'wheel_includes.cmake'}")
     # Not the `colcon` script: its first line cannot name an interpreter whose path has a space.
     colcon = [str(places.python), "-c", "import sys; from colcon_core.command import main; sys.exit(main())", "build"]
-    # One package after the other, so that the log ends with the output of the one that failed.
-    how = ["--symlink-install", "--executor", "sequential", "--cmake-args", *cmake]
+    how = ["--symlink-install", "--executor", executor, "--cmake-args", *cmake]
     shows = ["--event-handlers", "console_cohesion+", "console_stderr-", "desktop_notification-", "status-"]
     bases = map(str, _packages(places, ros))
     return [*colcon, *how, *shows, "--base-paths", *bases, "--build-base", str(places.workspace / "build")]
 
 
 def _packages(places: Places, ros: Ros) -> list:
-    """Folders with ROS 2 packages: ours, and the message of /tf where ROS 2 comes without it."""
-    has_tf2 = ros.prefix is not None and (ros.prefix / "share" / places.tf2_msgs.name).is_dir()
-    return [places.sources] if has_tf2 else [places.sources, places.tf2_msgs]
+    """Folders with ROS 2 packages: ours, and of the standard interfaces those that ROS 2 comes without."""
+    there = ros.prefix / "share" if ros.prefix else None
+    return [places.sources, *(each for each in places.interfaces if there is None or not (there / each.name).is_dir())]
 
 
 def _make_kernels(setup: Setup, key: str, task: Task) -> None:

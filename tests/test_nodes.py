@@ -5,6 +5,8 @@ import signal
 
 import pytest
 
+from .conftest import PACKAGES
+
 pytestmark = pytest.mark.system
 SLOW = pytest.mark.slow(reason="starts nodes in every order")
 
@@ -76,6 +78,8 @@ def test_bad_parameter_is_refused_by_name(start_node, tmp_path, name, parameters
     ("name", "arguments", "words"),
     [
         ("road_excitation", ("--nonsense",), "arguments ['--nonsense'] are not known"),
+        ("simulator", ("-p", "speed:=1"), "arguments ['-p', 'speed:=1'] are not known"),
+        ("player", ("bag:=here",), "arguments ['bag:=here'] are not known"),
         ("controller", ("--ros-args", "--bogus"), "['--bogus'] are not known"),
         ("recorder", ("--ros-args", "-p", "bag"), "parameter override rule: '-p bag'"),
         ("one_process", ("--ros-args", "-r", "__ns:=bad"), "remap rule: '-r __ns:=bad'"),
@@ -89,6 +93,26 @@ def test_bad_argument_is_refused_in_one_line(start_node, name, arguments, words)
     assert node.wait() == 2
     (line,) = node.output.splitlines()
     assert line.startswith("error: ") and words in line and "accepted are --ros-args" in line
+
+
+@SLOW
+def test_help_tells_all_and_starts_nothing(fork, observer):
+    """Parameters with defaults and ranges, topics and services; no node appears, and the end is in order."""
+    asked = {name: fork(name, ["--help"]) for name in PACKAGES}
+    words = {
+        "simulator": ("speed:=10.0\n", "-25 to 25 m/s", "mount_state  (trackvib_msgs/msg/MountState, 1 kHz)", "/pause"),
+        "road_excitation": ("seed:=1\n", "road_excitation listens to:\n  drive_state"),
+        "recorder": ("chunk_size:=1024\n", "from 16 to 65536 KiB"),
+        "player": ("rate:=1.0\n", "player/reset  (std_srvs/srv/Trigger)"),
+        "controller": ("sample_rate:=1000.0\n", "with law:=skyhook, may change while it runs:\n  soft_current:=0.8"),
+        "one_process": ("simulator:speed:=10.0\n", "controller:law:=passive\n"),
+    }
+    for name, node in asked.items():
+        assert node.wait() == 0, node.output
+        assert node.output.startswith(f"usage: {name} ") and "waiting" not in node.output
+        for each in words[name]:
+            assert each in node.output, (name, each)
+    assert observer.node.get_node_names() == ["observer"]
 
 
 @SLOW

@@ -21,6 +21,7 @@ NAMES = [(door, name) for door in DOORS for name in door.__all__ if name != "rui
 # Only these import ROS, or what starts its nodes.
 OF_ROS = {
     "mr_mount_controller.node",
+    "mr_mount_controller.node_base.descriptors",
     "mr_mount_controller.node_base.listener",
     "mr_mount_controller.node_base.loop_node",
     "mr_mount_controller.node_base.packed_message",

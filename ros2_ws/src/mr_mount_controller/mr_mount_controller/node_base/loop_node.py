@@ -182,7 +182,7 @@ def start_ros(args=()):
         The arguments, the program's name first, are not those of ROS 2.
     """
     if foreign := _outside(args[1:]):
-        raise ParameterError(f"arguments {foreign} do not stand behind --ros-args; {_ACCEPTED}")
+        raise ParameterError(f"arguments {foreign} are not known; {_ACCEPTED}")
     remove_unfinished_segments()
     set_logger_level("rcl", LoggingSeverity.FATAL)  # it says for itself, in more words, what the error says
     try:

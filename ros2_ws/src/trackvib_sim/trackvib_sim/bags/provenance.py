@@ -56,6 +56,14 @@ def recorded_value(parameter, recorded):
         raise ParameterError(f"recorded {parameter.name} is {text!r}: {error}") from None
 
 
+def recorded_law(recording, name, law):
+    """Return values by name of a law's parameters and their changes, as recorded; none if the run had another law."""
+    _, recorded = parameters_with(recording.provenance, "law")
+    if recorded.get("law") != name:
+        return {}, ()
+    return {each.name: recorded_value(each, recorded) for each in law.parameters}, recording.law_changes
+
+
 def law_change(message):
     """Return stamp [ns] and new values by name that a message on `law_parameters` tells."""
     values = {each.name: getattr(each.value, _VALUES[each.value.type]) for each in message.changed_parameters

@@ -4,6 +4,7 @@ import json
 from contextlib import ExitStack, contextmanager
 
 import numpy as np
+from mr_mount_controller.laws import find_law
 from mr_mount_controller.node_base.qos import LOOP_WRITER_QOS
 from mr_mount_controller.node_base.topics import CHASSIS_IMU, COIL_CURRENT, COIL_CURRENT_TYPE, POWERTRAIN_IMU
 
@@ -12,6 +13,7 @@ from ..bags.copying import copy_bag
 from ..bags.errors import BagError
 from ..bags.files import called
 from ..bags.playing import OpenBag
+from ..bags.provenance import recorded_law
 from ..bags.qos import qos_record
 from ..bags.reading import read_recording
 from ..bags.samples import paired_samples
@@ -87,7 +89,8 @@ def _replay(recording, stock, law, writer, replayed, folder, console):
             stack.enter_context(OpenBag(recording.path, topics.__contains__, whole=False)), *topics
         )
         _tell_pairing(samples, len(recording.chassis.stamp), topics, console)
-        check, last_words = stack.enter_context(_controller(stock, law, _rate(samples.stamp), folder))
+        values, changes = recorded_law(recording, law, find_law(law)) if law else ({}, ())
+        check, last_words = stack.enter_context(_controller(stock, law, values, _rate(samples.stamp), folder))
         trial = stack.enter_context(ControllerTrial(recording.mounting))
         if law is None:
             console.print(f"waiting for a controller that listens to {CHASSIS_IMU} or {POWERTRAIN_IMU} and answers on "
@@ -95,6 +98,9 @@ def _replay(recording, stock, law, writer, replayed, folder, console):
         trial.wait_for_controller(check)
         writer.add_topic(REPLAYED, COIL_CURRENT_TYPE, [qos_record(LOOP_WRITER_QOS)], trial.type_hash())
         for stamp, *imus in followed(samples.messages, "asking the controller", console, len(samples.stamp)):
+            while changes and changes[0][0] < stamp:
+                trial.change(changes[0][1])
+                changes = changes[1:]
             answer = trial.answer(stamp, *imus)
             if answer is None:
                 check()
@@ -142,7 +148,7 @@ def _answers(recording):
 
 
 @contextmanager
-def _controller(stock, law, rate, folder):
+def _controller(stock, law, values, rate, folder):
     """Run the stock controller unless the user runs one; gives a check, which raises if it has ended, and its words."""
     if law is None:
         yield lambda: None, lambda: ""
@@ -150,7 +156,7 @@ def _controller(stock, law, rate, folder):
     (folder / "log").mkdir()
     parameters = NodeParameters([CONTROLLER])
     parameters.read(closed_loop_parameters())
-    parameters.give(CONTROLLER, law=law, sample_rate=rate, wait_for_recorder=False)
+    parameters.give(CONTROLLER, law=law, **values, sample_rate=rate, wait_for_recorder=False)
     stock.start(parameters, folder / "log")
 
     def check():

@@ -17,7 +17,7 @@ from ..analysis.stamps import start_of
 from ..analysis.summary import summarise
 from ..bags.copying import copy_bag
 from ..bags.files import called
-from ..bags.provenance import PARAMETERS_OF, parameters_with, recorded_value, write_parameters, write_versions
+from ..bags.provenance import PARAMETERS_OF, parameters_with, recorded_law, write_parameters, write_versions
 from ..bags.reading import read_recording
 from ..bags.writing import BagWriter
 from ..console import followed
@@ -42,7 +42,9 @@ def run_replay_law(bag, law, out, console):
     recording.require("mounts", "road", "vehicle")
     analyse(recording)  # too short a drive is refused before anything is done
     simulation, _ = prepare_again(recording)
-    chosen, changes = _law(recording, law, simulation.settings.rates.control)
+    kind = find_law(law)
+    values, changes = recorded_law(recording, law, kind)
+    chosen = kind(1.0 / simulation.settings.rates.control, **values)
     with all_or_nothing(out) as folder:
         ended = _drive(recording, simulation, (chosen, changes), law, folder / "bag", console)
         labels, summary = _compare(recording, read_recording(folder / "bag"), law, ended, folder)
@@ -50,15 +52,6 @@ def run_replay_law(bag, law, out, console):
         (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
     console.print(_table(summary, labels))
     console.print(f"{ended}; left in {folder}: bag/, summary.json, replay.png", soft_wrap=True)
-
-
-def _law(recording, name, rate):
-    """Return the law for a rate [Hz], and changes of its parameters: as recorded, if the run had that law."""
-    law, (_, recorded) = find_law(name), parameters_with(recording.provenance, "law")
-    if recorded.get("law") != name:
-        return law(1.0 / rate), ()
-    values = {parameter.name: recorded_value(parameter, recorded) for parameter in law.parameters}
-    return law(1.0 / rate, **values), recording.law_changes
 
 
 def _compare(recording, rerun, law, ended, folder):

@@ -11,6 +11,8 @@ from mr_mount_controller.node_base.loop_node import start_ros
 from mr_mount_controller.node_base.patience import Patience
 from mr_mount_controller.node_base.qos import LATCHED_QOS, LOOP_WRITER_QOS
 from rclpy.experimental import EventsExecutor
+from rclpy.parameter import Parameter
+from rclpy.parameter_client import AsyncParameterClient
 from sensor_msgs.msg import Imu
 from trackvib_msgs.msg import MountDescription
 
@@ -20,6 +22,7 @@ from .messages import mount_description
 from .partners import Gathering
 
 _ANSWER_TIMEOUT = 1.0  # s of wall time after which the controller is silent
+_CHANGE_TIMEOUT = 30.0  # s
 _TICK = 0.1  # s
 
 
@@ -93,6 +96,15 @@ class ControllerTrial:
             if not self._patience.wait_until(lambda: lockstep.answered, _ANSWER_TIMEOUT):
                 self._given_up = self._heard
         return self._latest if lockstep.answered else None
+
+    def change(self, values):
+        """Change parameters of the stock controller's law, by name; raises ValueError if it does not take them."""
+        client = AsyncParameterClient(self._node, "controller")
+        future = client.set_parameters_atomically([Parameter(name, value=value) for name, value in values.items()])
+        if not self._patience.wait_until(future.done, _CHANGE_TIMEOUT):
+            raise ValueError("the controller does not answer to a recorded change of its law's parameters")
+        if not future.result().result.successful:
+            raise ValueError(f"the controller refuses a recorded change: {future.result().result.reason}")
 
     def _spin(self, timeout):
         with put_off_interrupts():

@@ -3,6 +3,7 @@
 import math
 import sys
 import time
+from importlib.util import find_spec
 
 from geometry_msgs.msg import TwistStamped
 from mr_mount_controller.node_base import topics
@@ -47,9 +48,14 @@ class SimulatorNode(LoopNode):
         self.listen(RoadProfile, topics.ROAD_PROFILE, self._on_road, ROAD_QOS)
         self.listen(TwistStamped, topics.CMD_VEL, self._on_command, LOOP_QOS)
         self._control = RunControl(self, self._time)
+        self._standard = _standard_services(self, self._control, self._simulation, vehicle_text)
         self._second_clock = SecondClock(self, self._time)
         period = self._simulation.settings.rates.period
         self._recorder = RecorderLag(self, period, self._time, lambda: self._heard) if s["wait_for_recorder"] else None
+
+    def prepare(self, spin, stopping):
+        """Take the executor's spin function and the stop flag, beside which a service may end the node."""
+        super().prepare(spin, lambda: stopping() or self._control.quit_wanted)
 
     def _time(self):  # ns
         return self._simulation.time
@@ -94,6 +100,8 @@ class SimulatorNode(LoopNode):
             self._recorder.complete_in_time()
         self._publish_diagnostics()
         self._output.flush()
+        if self._standard:
+            self._standard.close()
 
     def _start_anew(self):
         """Begin the next epoch: the first run over again, with everything at its start."""
@@ -274,6 +282,15 @@ class SimulatorNode(LoopNode):
         values["refused"] = self.refused
         values["duration"] = self.settings["duration"]
         self._output.publish_diagnostics(level, values["state"], values)
+
+
+def _standard_services(node, control, simulation, vehicle_text):
+    """Return the `standard_services.StandardServices` where ROS 2 has their types, else None."""
+    if find_spec("simulation_interfaces") is None:
+        return None
+    from .standard_services import StandardServices
+
+    return StandardServices(node, control, simulation, vehicle_text)
 
 
 def main(args=None):

@@ -45,6 +45,21 @@ class PoseReader:
         pins = tuple(each[:, 1 : count + 1].T.copy() for each, count in zip(nodes, links, strict=True))
         return Pose(place, Rotation.from_matrix(turns).as_quat(), pins)
 
+    def velocities(self, state):
+        """Return velocities of the bodies' origins [m/s] and angular velocities [rad/s], (n, 3) each, in global axes.
+
+        Those of the `vehicle.system.State` that was read last.
+        """
+        row = self._system.tree.row
+        velocity = columns(self._motion, MotionOffset.VELOCITY, 3)[row]
+        turning = columns(self._motion, MotionOffset.ANGULAR_VELOCITY, 3)[row]
+        forward = columns(self._motion, MotionOffset.ROTATION, 9)[row].reshape(-1, 3, 3)[0, :, 0]
+        travel, rate = (
+            each[:, None] * forward for each in (state.tracks.tensioner.travel, state.tracks.tensioner.rate)
+        )
+        velocity[self._idlers] += rate + np.cross(turning[0], travel)
+        return velocity, turning
+
 
 def link_poses(pins, left):
     """Return middles (k, 3) and attitudes (k, 4) of the links between pins (k, 3) of a closed track.
