@@ -141,7 +141,6 @@ def test_each_option_of_a_run_is_an_argument_of_the_launch_file():
 
 def test_launch_file(start, tmp_path):
     """`ros2 launch` runs a vehicle in a namespace, with a parameter file, to the end."""
-    pytest.importorskip("launch_ros", reason="the launch system of ROS 2 is not on any Python wheel")
     (tmp_path / "for_all.yaml").write_text(FOR_ALL)
     arguments = ("namespace:=right", "duration:=0.5", f"params_file:={tmp_path}/for_all.yaml", f"bag:={tmp_path}/bag")
     launched = start(["ros2", "launch", "trackvib_sim", "closed_loop.launch.py", *arguments])

@@ -9,6 +9,7 @@ import time
 from queue import Empty, Queue
 
 from mr_mount_controller.node_base.plain_text import readable
+from trackvib_sim.nodes.forked_node import end_with_parent
 
 from launch import LaunchError
 
@@ -46,9 +47,15 @@ class Processes:
         name = f"{name}-{self._count}"
         try:
             process = subprocess.Popen(
-                words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=folder,
-                env={**os.environ, **environment}, start_new_session=True,  # so that Ctrl-C reaches it once, from here
-            )  # fmt: skip
+                words,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                cwd=folder,
+                env={**os.environ, **environment},
+                start_new_session=True,  # so that Ctrl-C reaches it once, from here
+                preexec_fn=end_with_parent,
+            )
         except OSError as error:
             raise LaunchError(f"cannot run {words[0]}: {error.strerror}") from None
         self._running.append(_Process(action, name, words, process, self._queue))

@@ -3,6 +3,7 @@
 import math
 import sys
 import time
+from importlib import import_module
 from importlib.util import find_spec
 
 from geometry_msgs.msg import TwistStamped
@@ -23,6 +24,8 @@ from .run_control import RunControl, services
 from .simulator_parameters import PARAMETERS, prepare
 from .timing import PhaseClock
 
+# where ROS 2 has the types of the standard simulation interfaces
+_STANDARD = import_module(".standard_services", __package__) if find_spec("simulation_interfaces") else None
 _REPEAT = 0.5  # s of wall time after which a run that stands still says so again
 _ROAD_PATIENCE = 2.0  # s for the road of a run that begins anew
 
@@ -31,7 +34,7 @@ class SimulatorNode(LoopNode):
     """Lock-step or real-time master of the closed loop."""
 
     NAME, PARAMETERS = "simulator", PARAMETERS
-    SERVICES = services("period")
+    SERVICES = (*services("period"), *(_STANDARD.SERVICES if _STANDARD else ()))
 
     def __init__(self):
         super().__init__()
@@ -48,7 +51,8 @@ class SimulatorNode(LoopNode):
         self.listen(RoadProfile, topics.ROAD_PROFILE, self._on_road, ROAD_QOS)
         self.listen(TwistStamped, topics.CMD_VEL, self._on_command, LOOP_QOS)
         self._control = RunControl(self, self._time)
-        self._standard = _standard_services(self, self._control, self._simulation, vehicle_text)
+        standard = (self, self._control, self._simulation, vehicle_text)
+        self._standard = _STANDARD.StandardServices(*standard) if _STANDARD else None
         self._second_clock = SecondClock(self, self._time)
         period = self._simulation.settings.rates.period
         self._recorder = RecorderLag(self, period, self._time, lambda: self._heard) if s["wait_for_recorder"] else None
@@ -282,15 +286,6 @@ class SimulatorNode(LoopNode):
         values["refused"] = self.refused
         values["duration"] = self.settings["duration"]
         self._output.publish_diagnostics(level, values["state"], values)
-
-
-def _standard_services(node, control, simulation, vehicle_text):
-    """Return the `standard_services.StandardServices` where ROS 2 has their types, else None."""
-    if find_spec("simulation_interfaces") is None:
-        return None
-    from .standard_services import StandardServices
-
-    return StandardServices(node, control, simulation, vehicle_text)
 
 
 def main(args=None):
