@@ -48,7 +48,7 @@ def side_by_side(recorded_run, tmp_path_factory, domain):
         words = ("run", *map(str, options), "--out", str(folder / name))
         return Program("trackvib", list(words), folder / f"{name}.log", env, folder)
 
-    left = begin("left", "--law", "skyhook", "--duration", 3.2, "--namespace", "lab/left")
+    left = begin("left", "--law", "skyhook", "--duration", 3.2, "--namespace", "lab/left", "--one-process")
     root = begin("root", "--params-file", folder / "for_all.yaml", "--speed", SPEED)
     try:
         left.wait_for("closed loop:")
@@ -75,6 +75,14 @@ def test_a_vehicle_in_a_namespace_is_as_alone(side_by_side, recorded_run):
     assert {f"/lab/left{topic}" for topic in alone} == set(left)
     for topic in alone.keys() - {"/clock", "/diagnostics", "/road_profile"}:  # which tell again while a run stands
         assert left[f"/lab/left{topic}"] == alone[topic], topic
+
+
+def test_a_bag_of_a_namespace_is_driven_again(side_by_side, tmp_path):
+    """To the same bits, and under another law into a bag with the same topics."""
+    bag = side_by_side[0] / "left" / "bag"
+    assert "identical to the last bit" in trackvib("replay", bag, "--verify")
+    trackvib("replay", bag, "--law", "hybrid", "--out", tmp_path / "again")
+    assert streams(tmp_path / "again" / "bag").keys() == streams(bag).keys()
 
 
 def test_a_vehicle_beside_one_in_a_namespace_is_as_alone(side_by_side):
