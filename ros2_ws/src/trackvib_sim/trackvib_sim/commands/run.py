@@ -44,6 +44,7 @@ class Choices:
     seed: int
     physics_rate: int
     one_process: bool
+    measure_rate: int = 0  # Hz, of the running gear; 0 for none
     view: bool = False  # in a browser
 
     @property
@@ -158,6 +159,7 @@ def _run_nodes(processes, choices, vehicle, tread, folder, console):
             "gears": choices.gears,
             "duration": float(choices.duration),
             "view_rate": VIEW_RATE if choices.view else 0,
+            "measure_rate": choices.measure_rate,
         },
     }
     interrupted = None
