@@ -49,7 +49,12 @@ def main():
     installed = {normal(each.metadata["Name"]): each for each in distributions()}
     needed, needless = sections()
     kept = reached(needed, installed)
-    left_out = sorted(name for name in reached(needless, installed) - kept if not name.startswith("ros-"))
+    left_out = sorted(
+        name
+        for name in reached(needless, installed) - kept
+        # the machine's own packages stay as they are, and those of ROS ask for each other without saying so
+        if not name.startswith("ros-") and Path(installed[name].locate_file("")).is_relative_to(sys.prefix)
+    )
     print("left out:", *left_out)
     subprocess.run([sys.executable, "-m", "pip", "uninstall", "--quiet", "--yes", *left_out], check=True)
     for tests in Path(sysconfig.get_path("purelib")).glob("**/tests"):

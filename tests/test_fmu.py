@@ -122,7 +122,7 @@ def in_process():
 
 @pytest.mark.slow(reason="installs FMPy with pip")
 def test_fmpy_drives_it_as_the_process_does(fmpy, tmp_path):
-    """Accelerations and mounts are bit-identical; several instances do not disturb each other; odd steps are refused."""
+    """Accelerations and mounts are bit-identical beside a second instance; an odd step is refused."""
     file = tmp_path / "made.fmu"
     printed = trackvib("fmu", "--road", "D", "--speed", SPEED, "--seed", SEED, "--out", file)
     assert "2 inputs" in printed and f"Python {sys.version_info[0]}.{sys.version_info[1]}" in printed

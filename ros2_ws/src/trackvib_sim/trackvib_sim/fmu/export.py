@@ -37,6 +37,8 @@ class trackvib(VehicleSlave):
 
 
 trackvib.told = told
+# with each instance PythonFMU's loader runs this once more, and gives up a reference to globals that it does not own
+VehicleSlave.kept.append(globals())
 '''
 
 

@@ -1,10 +1,12 @@
 """What an FMU does where it runs: coil currents in, what sensors and mounts tell out, a control period at a time."""
 
+from copy import deepcopy
 from itertools import product
 from math import isfinite
 
 import numpy as np
-from pythonfmu import DefaultExperiment, Fmi2Causality, Fmi2Slave, Fmi2Status, Fmi2Variability, Real
+from pythonfmu import DefaultExperiment, Fmi2Causality, Fmi2Slave, Fmi2Variability, Real
+from pythonfmu.enums import Fmi2Status
 
 from ..nodes.simulator_parameters import simulation_of
 from ..numerics.units import NANO
@@ -35,6 +37,8 @@ class VehicleSlave(Fmi2Slave):
     ----------
     told : dict
         Set by the module in the FMU: texts of vehicle and drive, road, seed, values of the simulator's parameters.
+    kept : list
+        What that module keeps from being freed.
 
     Raises
     ------
@@ -42,7 +46,7 @@ class VehicleSlave(Fmi2Slave):
         It cannot be built.
     """
 
-    told = None
+    told, kept = None, []
     license, author = "Apache-2.0", "trackvib"
 
     def __init__(self, **kwargs):
@@ -78,9 +82,7 @@ class VehicleSlave(Fmi2Slave):
         simulation = self._simulation
         for sensor in self._read:
             for (row, (quantity, words)), (k, axis) in product(enumerate(IMU.items()), enumerate(AXES)):
-                self._output(
-                    f"{sensor}.{quantity}.{axis}", words, lambda s=sensor, row=row, k=k: self._read[s][row, k]
-                )
+                self._output(f"{sensor}.{quantity}.{axis}", words, lambda s=sensor, row=row, k=k: self._read[s][row, k])
         for quantity, words in MOUNT.items():
             values = getattr(simulation.sample.mounts, quantity)
             for i, name in enumerate(simulation.mounting.names[: len(values)]):
@@ -99,6 +101,14 @@ class VehicleSlave(Fmi2Slave):
             getter=getter,
         )
         self.register_variable(variable, nested=False)
+
+    def to_xml(self, *options):
+        """The FMU's description; the standard asks for the outputs among the initial unknowns, too."""
+        root = super().to_xml(*options)
+        structure = root.find("ModelStructure")
+        structure.append(deepcopy(structure.find("Outputs")))
+        structure[-1].tag = "InitialUnknowns"
+        return root
 
     def do_step(self, current_time, step_size):
         """Advance by `step_size` [s], whole control periods, under the currents; returns whether it could be done."""
