@@ -22,13 +22,13 @@ from .simulation import Simulation
 RUNS = ("lower", "front", "upper", "rear")
 
 
-class Kind(NamedTuple):
+class MeasuredKind(NamedTuple):
     """One kind of what is measured.
 
     Examples
     --------
     >>> import trackvib_sim as tv
-    >>> tv.Kind("engine_speed", "r/min", "of the crankshaft", ("engine",)).unit
+    >>> tv.MeasuredKind("engine_speed", "r/min", "of the crankshaft", ("engine",)).unit
     'r/min'
     """
 
@@ -43,7 +43,7 @@ class RunningGear:
 
     Attributes
     ----------
-    kinds : tuple of Kind
+    kinds : tuple of MeasuredKind
         What `read` gives, in its order.
 
     Examples
@@ -71,13 +71,13 @@ class RunningGear:
         by_run = tuple(f"{side}_{run}" for side in sides for run in RUNS)
         self._wheels = simulation.system.tracks.wheels.row[:, : len(stations)].ravel()
         self.kinds = (
-            Kind("suspension_travel", "m", "of the road wheel upwards in the hull, from static ride height", wheels),
-            Kind("damper_force", "N", "of the shock absorber at the road wheel, against compression", wheels),
-            Kind("wheel_force", "N", "of the track on the road wheel, upwards", wheels),
-            Kind("ground_force", "N", "of the ground on the track, axes of odom", by_axis),
-            Kind("track_tension", "N", "mean over the links of the run that touch no wheel", by_run),
-            Kind("sprocket_torque", "N m", "of the drive on the sprocket", sides),
-            Kind("engine_speed", "r/min", "of the crankshaft", ("engine",)),
+            MeasuredKind("suspension_travel", "m", "of the road wheel up in the hull, from static ride height", wheels),
+            MeasuredKind("damper_force", "N", "of the shock absorber at the road wheel, against compression", wheels),
+            MeasuredKind("wheel_force", "N", "of the track on the road wheel, upwards", wheels),
+            MeasuredKind("ground_force", "N", "of the ground on the track, axes of odom", by_axis),
+            MeasuredKind("track_tension", "N", "mean over the links of the run that touch no wheel", by_run),
+            MeasuredKind("sprocket_torque", "N m", "of the drive on the sprocket", sides),
+            MeasuredKind("engine_speed", "r/min", "of the crankshaft", ("engine",)),
         )
 
     def read(self) -> list[np.ndarray]:
