@@ -20,11 +20,14 @@ def nodes_here():
             programs.add(name.read_text().strip())
         except OSError:  # it has ended
             continue
-    return sorted({NODES[program] for program in programs & NODES.keys()})
+    return {NODES[program] for program in programs & NODES.keys()}
 
 
 def silent(names):
-    """Those of `names` of which no node, in whatever namespace, answers when it is asked for its parameters."""
+    """Those of `names` of which no node, in whatever namespace, answers when it is asked for its parameters.
+
+    Who ends meanwhile need not.
+    """
     rclpy.init()
     asking = rclpy.create_node("health", start_parameter_services=False, enable_rosout=False)
     end = time.monotonic() + PATIENCE
@@ -39,7 +42,7 @@ def silent(names):
         rclpy.spin_once(asking, timeout_sec=0.1)
         left -= {service.split("/")[-2] for service, future in futures.items() if future.done()}
     rclpy.shutdown()
-    return sorted(left)
+    return sorted(left & nodes_here())
 
 
 if __name__ == "__main__":
