@@ -25,9 +25,10 @@ class Extra(NamedTuple):
 STUDIES = Extra("studies", "the independent engine", (3, 10))
 TESTS = Extra("tests", "what runs and checks the tests", (3, 10))
 GYM = Extra("gym", "the interface of environments to learn in", (3, 10))
+FMU = Extra("fmu", "the packer of FMUs", (3, 10))
 VIEW = Extra("view", "the viewer", (3, 11))
 DOCS = Extra("docs", "the generator of the documents' site", (3, 10))
-EXTRAS = (STUDIES, TESTS, GYM, VIEW, DOCS)
+EXTRAS = (STUDIES, TESTS, GYM, FMU, VIEW, DOCS)
 
 
 def wanted(verb: str, arguments: list) -> tuple:
@@ -36,11 +37,11 @@ def wanted(verb: str, arguments: list) -> tuple:
     if verb == "setup":
         return tuple(extra for extra in EXTRAS if f"--{extra.name}" in options)
     if verb == "test":
-        return (STUDIES, TESTS, GYM)
+        return (STUDIES, TESTS, GYM, FMU)
     if options & {"-h", "--help"}:
         return ()
-    if verb == "docs":
-        return (DOCS,)
+    if verb in ("docs", "fmu"):
+        return (DOCS if verb == "docs" else FMU,)
     if verb == "study":
         return (STUDIES,) if arguments[:1] == ["figures"] else ()
     shows = (verb == "view" and "--gif" not in options) or (verb == "run" and "--view" in options)

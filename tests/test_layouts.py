@@ -19,8 +19,9 @@ TYPES = {f"/{topic.name.removeprefix('/')}": topic.type for topic in topics.TOPI
 
 def require_field(path):
     """Make sure that a path such as `/mount_state.force[0].z` leads from a topic to a number."""
-    topic = max((name for name in TYPES if path.startswith(name)), key=len)
-    kind, words = TYPES[topic], re.split(r"[./]", path.removeprefix(topic).lstrip("./").replace(":", "0"))
+    found = {name: re.match(re.escape(name).replace(r"\*", "[^./]+"), path) for name in TYPES}
+    topic = max((name for name, match in found.items() if match), key=lambda name: found[name].end())
+    kind, words = TYPES[topic], re.split(r"[./]", path[found[topic].end() :].lstrip("./").replace(":", "0"))
     if topic == "/joint_states":  # by the joint's name
         assert words[0].endswith("_joint") and words[1:] == ["position"], path
         return

@@ -28,6 +28,8 @@ from .simulation.closed_loop import Record as Record
 from .simulation.closed_loop import run_closed_loop as run_closed_loop
 from .simulation.open_loop import OpenLoopRecord as OpenLoopRecord
 from .simulation.open_loop import run_open_loop as run_open_loop
+from .simulation.running_gear import MeasuredKind as MeasuredKind
+from .simulation.running_gear import RunningGear as RunningGear
 from .simulation.settings import Rates as Rates
 from .simulation.settings import RunSettings as RunSettings
 from .simulation.simulation import Probe as Probe

@@ -16,6 +16,7 @@ _VERBS = {
     "analyze": "analyze_cli",
     "bag": "bag_cli",
     "compare": "compare_cli",
+    "fmu": "fmu_cli",
     "modes": "vehicle_cli",
     "mount": "mount_cli",
     "replay": "replay_cli",

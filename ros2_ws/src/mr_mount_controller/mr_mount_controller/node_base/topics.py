@@ -26,6 +26,8 @@ JOINT_STATES = "joint_states"
 ROBOT_DESCRIPTION = "robot_description"
 TRACK_LINKS = "track_links"
 ROAD_STRIPS = "road_strips"
+MEASURED = "measured/*"  # see `measured_topic`
+MEASURED_DESCRIPTION = "measured/description"
 
 IMU_TYPE = "sensor_msgs/msg/Imu"
 COIL_CURRENT_TYPE = "trackvib_msgs/msg/CoilCurrent"
@@ -45,6 +47,8 @@ JOINT_STATES_TYPE = "sensor_msgs/msg/JointState"
 ROBOT_DESCRIPTION_TYPE = "std_msgs/msg/String"
 TRACK_LINKS_TYPE = "visualization_msgs/msg/MarkerArray"
 ROAD_STRIPS_TYPE = "visualization_msgs/msg/Marker"
+MEASURED_TYPE = "trackvib_msgs/msg/Measured"
+MEASURED_DESCRIPTION_TYPE = "trackvib_msgs/msg/MeasuredDescription"
 RECORDED_TYPE = "builtin_interfaces/msg/Time"
 
 CHASSIS_FRAME = "chassis_imu_link"
@@ -60,6 +64,11 @@ def imu_topic(sensor):
 def imu_frame(sensor):
     """Return the frame of a sensor by its name."""
     return f"{sensor}_imu_link"
+
+
+def measured_topic(kind):
+    """Return the topic of a kind of what is measured in the running gear."""
+    return f"measured/{kind}"
 
 
 class Topic(NamedTuple):
@@ -190,6 +199,21 @@ TOPICS = (
         "simulator",
         "1 Hz, with `view_rate`",
         "The road around the vehicle as two strips, left and right, in `odom`.",
+    ),
+    Topic(
+        MEASURED,
+        MEASURED_TYPE,
+        "simulator",
+        "`measure_rate`",
+        "One topic a kind: `suspension_travel`, `damper_force`, `wheel_force`, `ground_force`, `track_tension`, "
+        "`sprocket_torque`, `engine_speed`.",
+    ),
+    Topic(
+        MEASURED_DESCRIPTION,
+        MEASURED_DESCRIPTION_TYPE,
+        "simulator",
+        "once, with `measure_rate`",
+        "Unit and meaning of each of these kinds, and what each of its numbers belongs to.",
     ),
     Topic(
         RECORDED,

@@ -33,6 +33,7 @@ class Choices:
     physics_rate: int
     one_process: bool
     namespace: str  # full name
+    measure_rate: int  # Hz, of the running gear; 0 for none
     view: bool  # in a browser
 
     @property
@@ -75,7 +76,7 @@ def choose(given, files, namespace, one_process, view):
             one_process=one_process,
             namespace=parameters.namespace,
             view=view,
-            **{name: own[name] for name in ("speed", "gears", "duration", "physics_rate")},
+            **{name: own[name] for name in ("speed", "gears", "duration", "physics_rate", "measure_rate")},
         )
         settling = _settling(choices, find_road(choices.road, 2.0 * vehicle.road_wheels.y).begins)
     except (ParameterError, RoadError, DriveFileError, VehicleFileError) as error:

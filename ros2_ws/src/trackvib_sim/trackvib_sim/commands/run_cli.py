@@ -2,31 +2,18 @@
 
 import click
 
-from ..nodes.loop_arguments import ARGUMENTS
-from ..vehicle.drive.limits import FASTEST
+from .driving_options import driving_options, loop_option
 from .endings import fail
 from .option_types import FiniteRange, law_option
 
 
-def _option(name, option=click.option, **settings):
-    """Return the option of an argument of the loop; None where it is not given."""
-    argument = ARGUMENTS[name]
-    default = {"show_default": argument.default} if argument.default else {}
-    return option(f"--{name.replace('_', '-')}", default=None, help=argument.description, **default, **settings)
-
-
 @click.command()
-@_option("vehicle", metavar="NAME|FILE")
-@_option("road", metavar="CLASS|FILE")
-@_option("speed", type=FiniteRange(-FASTEST, FASTEST))
-@_option("drive", type=click.Path(exists=True, dir_okay=False))
-@_option("gears", is_flag=True)
-@_option("duration", type=FiniteRange(0.1, 3600.0))
-@_option("law", law_option)
-@_option("law_parameters", metavar="NAME=VALUE,...")
-@_option("seed", type=click.IntRange(0, 10**9))
-@_option("physics_rate", type=click.IntRange(1000, 200_000))
-@_option("control_rate", type=click.IntRange(10, 10_000))
+@driving_options
+@loop_option("duration", type=FiniteRange(0.1, 3600.0))
+@loop_option("law", law_option)
+@loop_option("law_parameters", metavar="NAME=VALUE,...")
+@loop_option("control_rate", type=click.IntRange(10, 10_000))
+@loop_option("measure_rate", type=click.IntRange(0, 1000), metavar="HZ")
 @click.option(
     "--params-file",
     "files",

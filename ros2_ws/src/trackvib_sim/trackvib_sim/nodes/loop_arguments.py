@@ -87,6 +87,12 @@ ARGUMENTS = {
         "Rate of the samples and of their answers in Hz.",
         _of((SIMULATOR, "control_rate"), (CONTROLLER, "sample_rate")),
     ),
+    "measure_rate": Argument(
+        int,
+        "0",
+        "Rate in Hz of what is measured in the running gear: travel, forces, tension, torque; 0 for none.",
+        _of((SIMULATOR, "measure_rate")),
+    ),
     "view": Argument(
         bool,
         "",
@@ -135,6 +141,12 @@ def loop_parameters(given, files=(), namespace="/"):
     if parameters.get(ROAD, "track_distance") is None:
         parameters.give(ROAD, track_distance=2.0 * vehicle.road_wheels.y)
     return parameters, vehicle
+
+
+def default_of(name):
+    """Return the value of an argument that is not given: None, or False for a flag, where it has no default."""
+    argument = ARGUMENTS[name]
+    return argument_from_text(name, argument.default) if argument.default else False if argument.kind is bool else None
 
 
 def argument_from_text(name, text):

@@ -26,7 +26,7 @@ class SimulatorOutput:
     """All publishers of the simulator node."""
 
     def __init__(self, node, simulation, vehicle_text, drive_text):
-        self._view = _view_output(node, simulation, vehicle_text) if node.settings["view_rate"] else None
+        self._further = _further_outputs(node, simulation, vehicle_text)
         self._simulation = simulation
         rates = simulation.settings.rates
         self._periods_an_odometry = rates.control // rates.odometry
@@ -61,8 +61,8 @@ class SimulatorOutput:
         self._description_out.publish(mount_description(self._simulation.mounting))
         self._vehicle_out.publish(String(data=self._vehicle_text))
         self._drive_file_out.publish(String(data=self._drive_text))
-        if self._view:
-            self._view.introduce()
+        for output in self._further:
+            output.introduce()
 
     @property
     def loop_publishers(self):
@@ -82,8 +82,8 @@ class SimulatorOutput:
         self._mount_out.publish(self._mounts.fill(stamp, simulation.sample.mounts))
         if simulation.periods % self._periods_an_odometry == 0:
             self.publish_odometry()
-        if self._view:
-            self._view.publish_in_turn()
+        for output in self._further:
+            output.publish_in_turn()
 
     def publish_odometry(self):
         """Publish where the vehicle is, how it is driven, and the clock."""
@@ -116,8 +116,14 @@ class SimulatorOutput:
             publisher.wait_for_all_acked(Duration(seconds=max(end - time.monotonic(), 0.0)))
 
 
-def _view_output(node, simulation, vehicle_text):
-    from ..vehicle.vehicle_file import parse_vehicle  # imported late: most runs have no viewers
+def _further_outputs(node, simulation, vehicle_text):
+    """What has a rate of its own, which most runs leave at zero."""
+    if not (node.settings["view_rate"] or node.settings["measure_rate"]):
+        return []
+    from ..vehicle.vehicle_file import parse_vehicle  # imported late: a run without them does not wait for it
+    from .measured_output import MeasuredOutput
     from .view_output import ViewOutput
 
-    return ViewOutput(node, simulation, parse_vehicle(vehicle_text, "vehicle file"), node.settings["view_rate"])
+    vehicle = parse_vehicle(vehicle_text, "vehicle file")
+    kinds = ((ViewOutput, node.settings["view_rate"]), (MeasuredOutput, node.settings["measure_rate"]))
+    return [kind(node, simulation, vehicle, rate) for kind, rate in kinds if rate]

@@ -60,6 +60,7 @@ PARAMETERS = (
     Parameter("control_rate", 1_000, "Rate of the Imu messages and of the control loop.", "Hz", 10, 10_000),
     Parameter("odometry_rate", 100, "Rate of odometry and /clock.", "Hz", 1, 10_000),
     Parameter("view_rate", 0, "Rate of frames, joint states and track links for viewers; 0 for none.", "Hz", 0, 1_000),
+    Parameter("measure_rate", 0, "Rate of what is measured in the running gear; 0 for none.", "Hz", 0, 10_000),
     Parameter("wait_for_recorder", False, "Start only with a recorder, and never run far ahead of it."),
 )
 
@@ -81,11 +82,12 @@ def prepare(values):
         drive = drive_text(values["drive"]) if values["drive"] else ""
     except DriveFileError as error:
         raise ParameterError(f"simulator: parameter 'drive': {error}") from None
-    if values["view_rate"] and values["control_rate"] % values["view_rate"]:
-        raise ParameterError(
-            f"simulator: control_rate {values['control_rate']} Hz and view_rate {values['view_rate']} Hz clash: the "
-            "first must be a multiple of the second"
-        )
+    for name in ("view_rate", "measure_rate"):
+        if values[name] and values["control_rate"] % values[name]:
+            raise ParameterError(
+                f"simulator: control_rate {values['control_rate']} Hz and {name} {values[name]} Hz clash: the first "
+                "must be a multiple of the second"
+            )
     return simulation_of(vehicle, values, drive), usable_current(vehicle), text, drive
 
 

@@ -61,6 +61,8 @@ class Simulation:
     state : vehicle.system.State
     road : road.store.RoadStore
         To be filled by the caller, as far ahead as `road_is_enough` asks.
+    road_at_hand : road.store.Road or None
+        The stretch on which the last period was done, None before the first one.
     periods : int
         Control periods done.
 
@@ -89,6 +91,7 @@ class Simulation:
     def reset(self):
         """Start anew as if just made: time zero, the state in which every run begins, no road."""
         self._held = self._statuses = None  # the road that the generator of control periods was made with, and itself
+        self.road_at_hand = None
         self.state = deepcopy(self._initial)
         self.road = RoadStore()
         self.periods = 0
@@ -112,11 +115,6 @@ class Simulation:
     def road_is_enough(self) -> bool:
         """Return whether the next period can be done with the road at hand."""
         return self._road_around(1) is not None
-
-    @property
-    def road_at_hand(self):
-        """The stretch (`road.store.Road`) on which the last period was done, None before the first one."""
-        return self._held
 
     def command(self, speed: float, yaw_rate: float):
         """Want another speed [m/s] and yaw rate [rad/s, to the left] from the next period on, whatever the schedule.
@@ -150,7 +148,8 @@ class Simulation:
         """
         while self._expected and self._expected[0][0] <= self.time:
             self.command(*self._expected.pop(0)[1:])
-        self._hold(self._road_around(1))
+        self.road_at_hand = self._road_around(1)
+        self._hold(self.road_at_hand)
         self._demanded[:] = demanded
         status = next(self._statuses)
         self._end_periods(status, 1 if status == Status.GOOD else 0)
@@ -171,10 +170,11 @@ class Simulation:
         They are filled with the sensors' specific forces, those of the probes (k, steps, p, 3) at every physics step,
         and the hull's speed along its own x axis. Raises as `advance` does, with the rows before the failure filled.
         """
+        self.road_at_hand = self._road_around(len(force))
         status, done = advance_many(
             self.system,
             self.state,
-            self._road_around(len(force)),
+            self.road_at_hand,
             demanded,
             self.settings.rates.steps,
             self._work,

@@ -1,0 +1,36 @@
+"""Options that say which vehicle is driven, on which road and how: for every verb that drives one."""
+
+import click
+
+from ..nodes.loop_arguments import ARGUMENTS, default_of
+from ..vehicle.drive.limits import FASTEST
+from .option_types import FiniteRange
+
+_SETTINGS = {
+    "vehicle": {"metavar": "NAME|FILE"},
+    "road": {"metavar": "CLASS|FILE"},
+    "speed": {"type": FiniteRange(-FASTEST, FASTEST)},
+    "drive": {"type": click.Path(exists=True, dir_okay=False)},
+    "gears": {"is_flag": True},
+    "seed": {"type": click.IntRange(0, 10**9)},
+    "physics_rate": {"type": click.IntRange(1000, 200_000)},
+}
+
+
+def loop_option(name, option=click.option, **settings):
+    """Return the option of an argument of the loop; None where it is not given."""
+    argument = ARGUMENTS[name]
+    default = {"show_default": argument.default} if argument.default else {}
+    return option(f"--{name.replace('_', '-')}", default=None, help=argument.description, **default, **settings)
+
+
+def driving_options(command):
+    """Give a command `--vehicle`, `--road`, `--speed`, `--drive`, `--gears`, `--seed` and `--physics-rate`."""
+    for name in reversed(_SETTINGS):
+        command = loop_option(name, **_SETTINGS[name])(command)
+    return command
+
+
+def with_defaults(given):
+    """Return values of such options by name, with the arguments' defaults where none is given."""
+    return {name: default_of(name) if value is None else value for name, value in given.items()}
