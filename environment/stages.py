@@ -69,7 +69,8 @@ def plan(setup: Setup, extras: tuple) -> list:
         Stage("packages", f"setting up (once): {packages}", "about 1 min with a fast network", places.venv, venv,
               lambda task: _make_venv(setup, task)),
         *(Stage(extra.name, f"setting up (once): {extra.what}", "about 1 min with a fast network", extra.folder(places),
-                fingerprint([venv, _hash(extra.lock(places))]), partial(_make_extra, setup, extra)) for extra in extras),
+                fingerprint([venv, _hash(extra.lock(places))]), partial(_make_extra, setup, extra))
+          for extra in extras),
         Stage("workspace", "building the ROS 2 packages", "about 40 s", places.workspace, workspace,
               lambda task: _make_workspace(setup, task)),
         Stage("kernels", "compiling the simulation", "about 30 s", places.kernels, kernels,

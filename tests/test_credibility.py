@@ -34,9 +34,8 @@ def ratios(cells):
 
 def test_table_of_the_paper():
     """Error factors of the vehicle and of both null models, fitted and left out."""
-    factors = {name: [f"{float(cell):.2f}" for cell in row("studies.md", name)]
-               for name in ("trackvib", "mean of each speed, 18 numbers", "power of the speed, 12 numbers")}  # fmt: skip
-    (ours, left_out), mean, power = factors.values()
+    models = ("trackvib", "mean of each speed, 18 numbers", "power of the speed, 12 numbers")
+    (ours, left_out), mean, power = ([f"{float(cell):.2f}" for cell in row("studies.md", name)] for name in models)
     text = page("docs/credibility.md")
     assert f"error factor {ours}; {left_out} for classes left out of the fit" in text
     assert f"18 numbers | error factor {mean[0]}; {mean[1]} left out" in text

@@ -10,7 +10,10 @@ from .numbers import AXES, SENSORS  # noqa: E402
 from .vibration import psd  # noqa: E402
 
 COLOURS = {"chassis": "#3b6ea5", "powertrain": "#d1662b"}
-_WIDTHS = {"chassis": (2.6, 0.45), "powertrain": (0.9, 1.0)}  # of lines, opacity: below a narrow one a broad one is seen
+_WIDTHS = {
+    "chassis": (2.6, 0.45),
+    "powertrain": (0.9, 1.0),
+}  # of lines, opacity: below a narrow one a broad one is seen
 NAMES = ("longitudinal x", "lateral y", "vertical z")
 LOWEST_FREQUENCY = 1.0  # Hz, where the spectrum starts
 CLOSE = 1.0  # s of the history: of a whole run the curve drawn last would hide the other
@@ -60,6 +63,8 @@ def _spectrum(plot, prepared, lines):
     plot.set_xlim(LOWEST_FREQUENCY, prepared.rate / 2)
     plot.set_xlabel("frequency, Hz")
     plot.set_ylabel("(m/s²)²/Hz")
-    plot.set_title("vertical power spectral density, with the lines of link passing (v/p) and of engine orders", fontsize=10)
+    plot.set_title(
+        "vertical power spectral density, with the lines of link passing (v/p) and of engine orders", fontsize=10
+    )
     plot.grid(alpha=0.3, which="both")
     plot.legend(fontsize=8, loc="upper left")
