@@ -6,7 +6,8 @@ import numpy as np
 from matplotlib.image import imread
 
 SCATTER_OF_WORK = 0.2  # of the largest number in the account
-OF_THE_MOMENT = ("finished", "runs ", "pace:", "left in", "picture")  # lines of progress, pace and places
+# lines of progress, pace and places
+OF_THE_MOMENT = ("finished", "runs ", "reading ", "measuring ", "pace:", "left in", "picture")
 BEYOND = "!"  # marks a number that is beyond its goal
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?%?")
 
