@@ -2,10 +2,11 @@
 
     ./trackvib exec -- python docs/renew.py [DOCUMENT ...]
 
-renews README.md, docs/*.md and docs/vehicles/*.md, or the documents given. It makes anew what stands between
-`<!-- KIND of: SOURCE -->` and `<!-- end -->`: a `table` of `code_tables.py` by its name, the `output` of a command in a
-fence, or the `picture` that a command leaves under the name that the document shows. `tests/test_documents.py` and
-`tests/test_printed_output.py` fail where the document has something else.
+renews README.md, docs/*.md, docs/vehicles/*.md and docs/tutorials/*.md, or the documents given. It makes anew what
+stands between `<!-- KIND of: SOURCE -->` and `<!-- end -->`: a `table` of `code_tables.py` by its name, the `output` of
+a command in a fence, or the `picture` that a command leaves under the name that the document shows. Tutorials are
+followed as `tutorial_pages.py` says. `tests/test_documents.py`, `tests/test_printed_output.py` and
+`tests/test_tutorials.py` fail where the document has something else.
 """
 
 import os
@@ -18,6 +19,7 @@ import tempfile
 from pathlib import Path
 from typing import NamedTuple
 
+import tutorial_pages
 from code_tables import TABLES
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -36,7 +38,8 @@ class Block(NamedTuple):
 def documents():
     """Return the paths of all documents that may hold blocks."""
     docs = ROOT / "docs"
-    return [ROOT / "README.md", *sorted(docs.glob("*.md")), *sorted(docs.glob("vehicles/*.md"))]
+    below = (path for part in (".", "vehicles", "tutorials") for path in sorted((docs / part).glob("*.md")))
+    return [ROOT / "README.md", *below]
 
 
 def blocks(text):
@@ -129,12 +132,24 @@ def renew(document, commands):
     document.write_text(MARKED.sub(anew, text), encoding="utf-8")
 
 
+def renew_tutorial(page, folder):
+    """Follow a tutorial, and take over what it prints and draws."""
+    folder.mkdir()
+    text = page.read_text(encoding="utf-8")
+    page.write_text(tutorial_pages.renewed(text, tutorial_pages.follow(page, folder)), encoding="utf-8")
+    for made, shown in tutorial_pages.pictures(text):
+        shutil.copyfile(folder / made, page.parent / shown)
+
+
 def main():
     """Renew documents."""
     with tempfile.TemporaryDirectory() as top:
         commands = Commands(top)
-        for document in [Path(word) for word in sys.argv[1:]] or documents():
-            renew(document, commands)
+        for document in [Path(word).resolve() for word in sys.argv[1:]] or documents():
+            if document in tutorial_pages.PAGES:
+                renew_tutorial(document, Path(top) / document.stem)
+            else:
+                renew(document, commands)
 
 
 if __name__ == "__main__":

@@ -19,6 +19,7 @@ PAGES = {
 }
 FENCED = {"CITATION.cff": ("Citation", "yaml"), "LICENSE": ("Licence", "text")}  # what is no Markdown: title, language
 MARK = re.compile(r"<!-- .*? -->\n")  # of docs/renew.py
+ABOVE = re.compile(rf"\]\(\.\./({'|'.join(map(re.escape, PAGES))})\b")
 LINK = re.compile(r"\]\((docs/)?([\w./-]+)")
 EXPORTED = re.compile(r"from (\.\w\S*) import \w+ as (\w+)")
 API = """\
@@ -55,10 +56,7 @@ def on_files(files, config):
 
 def on_page_markdown(markdown, page, **_):
     """Take out the marks of `docs/renew.py`, and lead links to pages that lie above `docs/` to their place here."""
-    markdown = re.sub(
-        r"\]\(\.\./(README\.md|CONTRIBUTING\.md|CHANGELOG\.md|CITATION\.cff|LICENSE)\b", _into_the_site, markdown
-    )
-    return MARK.sub("\n", markdown)
+    return MARK.sub("\n", ABOVE.sub(_into_the_site, markdown))
 
 
 def _from_the_top(match):

@@ -8,6 +8,7 @@ sys.path.append(str(ROOT / "docs"))  # where the program lies, which is no part 
 
 import code_tables  # noqa: E402
 import renew  # noqa: E402
+import tutorial_pages  # noqa: E402
 
 DOCUMENTS = [*renew.documents(), ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
-__all__ = ["DOCUMENTS", "ROOT", "code_tables", "renew"]
+__all__ = ["DOCUMENTS", "ROOT", "code_tables", "renew", "tutorial_pages"]

@@ -13,9 +13,10 @@ from mr_mount_controller.node_base import topics
 from trackvib_sim.data import paper_table_file
 from trackvib_sim.studies.paper.paper_table import read_table
 
-from .documents import DOCUMENTS, ROOT, code_tables, renew
+from .documents import DOCUMENTS, ROOT, code_tables, renew, tutorial_pages
 
 WIDTH = 120
+OF_READERS = {"my_controller.py"}.union(*(tutorial_pages.steps(path.read_text())[0] for path in tutorial_pages.PAGES))
 CODE = [path for part in ("ros2_ws/src", "tests", "bench", "docs", "environment", "docker", ".github")
         for path in (ROOT / part).rglob("*") if path.is_file()]  # fmt: skip
 
@@ -178,7 +179,7 @@ def test_links_lead_somewhere(document):
 def test_named_files_and_modules_are_there(document):
     """A Python file or module that the text names exists under that name."""
     for word in re.findall(r"`([^`\s]+)`", _prose(document)):
-        if re.fullmatch(r"[\w/*.]+\.py", word) and word != "my_controller.py":
+        if re.fullmatch(r"[\w/*.]+\.py", word) and word not in OF_READERS:
             assert any(path.match(f"**/{word}") or path.match(word) for path in CODE), word
         if re.fullmatch(r"(trackvib_sim|mr_mount_controller)(\.\w+)+", word):
             module, _, name = word.rpartition(".")

@@ -6,11 +6,10 @@ import subprocess
 import sys
 from functools import partial
 
-import numpy as np
 import pytest
-from matplotlib.image import imread
 
 from .documents import DOCUMENTS, ROOT, renew
+from .printed_words import alike, compared, elements
 
 # By what part a number may differ, beside one unit of its last digit. Contacts of the tracks amplify rounding, which is
 # another one on another kind of processor. With a current changed by 1e-12 levels differ by up to 4 %, the work on the
@@ -28,11 +27,7 @@ SCATTER = {
     "./trackvib exec -- python docs/examples/field_test.py": 0.15,
     "./trackvib exec -- sh docs/examples/moving_picture.sh": 0.1,
 }
-SCATTER_OF_WORK = 0.2  # of the largest number in the account
 ALIKE, ALIKE_IN_SCATTER = 2e-4, 0.1  # part of a picture's elements that may differ
-OF_THE_MOMENT = ("finished", "runs ", "pace:", "left in", "picture")  # lines of progress, pace and places
-BEYOND = "!"  # marks a number that is beyond its goal
-NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?%?")
 
 pytestmark = pytest.mark.system
 
@@ -62,40 +57,9 @@ def programs():
     return (pytest.param(path, id=path.name) for path in DOCUMENTS if python(path))
 
 
-def compared(text):
-    """Return what is to be compared: lines without those of the moment, frames of tables and marks of goals."""
-    lines = (re.sub(r"[\u2500-\u257f\s]+", " ", line.replace(BEYOND, "")).strip() for line in text.splitlines())
-    return [line for line in lines if line and not line.startswith(("```", *OF_THE_MOMENT))]
-
-
 def scatter(block):
     """Return by what part numbers of a block's command may differ."""
     return next((part for start, part in SCATTER.items() if block.source.startswith(start)), 0.0)
-
-
-def alike(shown, printed, scatter):
-    """Whether two lines have the same words, and numbers that differ by no more than they may.
-
-    Whole numbers count or choose and must be the same; parts in percent may differ by one.
-    """
-    if NUMBER.sub("#", shown) != NUMBER.sub("#", printed):
-        return False
-    old, new = ([float(each.rstrip("%")) for each in NUMBER.findall(line)] for line in (shown, printed))
-    allowed = [_rounding(each) for each in NUMBER.findall(shown)]
-    if scatter:
-        work = SCATTER_OF_WORK * max(map(abs, old), default=0.0)
-        allowed = [
-            unit + (work if shown.startswith("mounts:") else scatter * abs(number)) if unit else 0.0
-            for unit, number in zip(allowed, old, strict=True)
-        ]
-    return all(abs(a - b) <= most * (1.0 + 1e-9) for a, b, most in zip(old, new, allowed, strict=True))
-
-
-def _rounding(number):
-    if number.endswith("%"):
-        return 1.0
-    digits = len(number.partition(".")[2])
-    return 10.0**-digits if digits else 0.0
 
 
 @pytest.mark.slow(reason="a whole run in real processes, and a study of 27 drives")
@@ -106,12 +70,6 @@ def test_output_is_what_the_command_prints(block, document, commands):
     assert len(before) > 3
     for old, new in zip(before, now, strict=True):
         assert alike(old, new, scatter(block)), f"the document has\n{old}\nand the command prints\n{new}"
-
-
-def elements(path):
-    """Return the elements of a picture, of an animated one those of its first frame, from 0 to 1."""
-    picture = imread(path)
-    return picture / 255.0 if picture.dtype == np.uint8 else picture
 
 
 @pytest.mark.slow(reason="the same commands")

@@ -1,4 +1,4 @@
-"""Control laws: one a file, and the contract they fulfil (`ControlLaw`). No ROS."""
+"""Control laws: one per file, and the contract they fulfil (`ControlLaw`). No ROS."""
 
 from importlib import import_module
 from importlib.metadata import entry_points

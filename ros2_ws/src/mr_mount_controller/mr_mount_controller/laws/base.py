@@ -165,7 +165,7 @@ def changed_law(law, values):
 
 
 def answer(law, sample):
-    """Return the law's currents, one a coil [A], for a sample.
+    """Return the law's currents, one per coil [A], for a sample.
 
     Raises
     ------
@@ -183,6 +183,6 @@ def answer(law, sample):
     if not np.isfinite(numbers).all():
         raise LawError(
             f"law {type(law).__name__} answered {result!r} at t = {sample.time:.3f} s, "
-            f"must be one finite current [A], or {coils} of them, one a coil"
+            f"must be one finite current [A], or {coils} of them, one per coil"
         )
     return currents

@@ -67,7 +67,7 @@ def _speeds(default):
     type=click.IntRange(1, 1000),
     default=3,
     show_default=True,
-    help="Runs a class and speed, each with its own road and track phase.",
+    help="Runs per class and speed, each with its own road and track phase.",
 )
 @vehicle_option
 @_SCHEDULER
@@ -113,7 +113,7 @@ def figures(vehicle, scheduler, out):
     type=click.IntRange(1, 1000),
     default=8,
     show_default=True,
-    help="Runs a law and scenario that varies, each with its own road and track phase.",
+    help="Runs per law and scenario that varies, each with its own road and track phase.",
 )
 @vehicle_option
 @_SCHEDULER
@@ -163,7 +163,7 @@ def calibrate(generations, plan, without, vehicle, scheduler, out):
     type=click.IntRange(1, 100),
     default=4,
     show_default=True,
-    help="Runs a case, each with its own phase between the two tracks; variants have half of them.",
+    help="Runs per case, each with its own phase between the two tracks; variants have half of them.",
 )
 @_SCHEDULER
 @_out("m113")

@@ -15,7 +15,7 @@ from .option_types import FiniteRange, largest_chunk_option
     "--rate",
     type=FiniteRange(1.0, 1000.0),
     default=None,
-    help="Frames a second of simulated time.  [default: 50, in a picture 12.5]",
+    help="Frames per second of simulated time.  [default: 50, in a picture 12.5]",
 )
 @click.option("--start", type=FiniteRange(0.0, 1e6), default=0.0, show_default=True, help="Time to begin at in s.")
 @click.option("--end", type=FiniteRange(0.0, 1e6), default=None, help="Time to end at in s.  [default: the bag's]")

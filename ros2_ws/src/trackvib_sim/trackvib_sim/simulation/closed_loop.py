@@ -15,7 +15,7 @@ from .simulation import HORIZON, POWERTRAIN, Simulation
 
 
 class Record(NamedTuple):
-    """What a run measured, one row a control period; of probes a row a physics step.
+    """What a run measured, one row per control period; of probes one per physics step.
 
     Examples
     --------

@@ -12,8 +12,9 @@ CHUNK = 100  # periods in one compiled call, and between two calls of `on_progre
 
 
 class OpenLoopRecord(NamedTuple):
-    """What a run measured: sensors, in the order of the simulation's sample, a row a control period; probes, in theirs,
-    a row a physics step.
+    """What a run measured: of sensors a row per control period, of probes a row per physics step.
+
+    Sensors are in the order of the simulation's sample, probes in theirs.
 
     Examples
     --------

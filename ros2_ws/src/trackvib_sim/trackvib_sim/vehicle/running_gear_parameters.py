@@ -98,7 +98,7 @@ class RoadWheelsParameters(Section):
 
 
 class EndWheelsParameters(RoadWheelsParameters):
-    """Sprockets or idlers: wheels that turn in the hull, one a side."""
+    """Sprockets or idlers: wheels that turn in the hull, one per side."""
 
     x: scalar("m")
     z: scalar("m")

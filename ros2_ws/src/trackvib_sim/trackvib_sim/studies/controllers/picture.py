@@ -9,7 +9,7 @@ DRAWN = ("powertrain", "powertrain_wk", "force", "travel")
 
 
 def controllers_picture(rows, file):
-    """Draw rows (`controllers_table.Row`) to a PNG file, a column a scenario and a row a quantity."""
+    """Draw rows (`controllers_table.Row`) to a PNG file, a column per scenario and a row per quantity."""
     scenarios = list(dict.fromkeys(row.scenario for row in rows))
     laws = sorted({row.law for row in rows if row.current is None})
     colours = dict(zip(laws, colormaps["tab10"].colors * (len(laws) // 10 + 1), strict=False))
@@ -24,7 +24,7 @@ def controllers_picture(rows, file):
         panel.set_title(SCENARIOS[scenario].title, fontsize=10)
     for panel in panels[-1]:
         panel.set_xlabel("mean current, A")
-    figure.suptitle("Control laws beside constant currents: below the line is better", fontsize=12)
+    figure.suptitle("Control laws beside constant currents:\nbelow the line is better", fontsize=12)
     handles = {label: each for panel in panels.ravel()
                for each, label in zip(*panel.get_legend_handles_labels(), strict=True)}  # fmt: skip
     figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=5, fontsize=9)
