@@ -39,13 +39,15 @@ class Drive:
         road, spacing = Iso8608Road("E", 1, LEVEL_UNTIL, FADE), 0.05
         first = round(-20.0 / spacing)
         self._simulation.road.add(first * spacing, spacing, *road.heights(first, round(length / spacing) - first))
-        self._force, self._speed = np.empty((CHUNK, len(self._simulation.sensors), 3)), np.empty(CHUNK)
+        sample = self._simulation.sample
+        self._record = [np.empty((CHUNK, *part.shape)) for part in (sample.specific_force, sample.probed)]
+        self._speed = np.empty(CHUNK)
         self._current = np.ones(self._simulation.mounting.coils)
         while self._simulation.distance < LEVEL_UNTIL + FADE:  # onto the full roughness
             self()
 
     def __call__(self):
-        self._simulation.advance_many(self._current, self._force, self._speed)
+        self._simulation.advance_many(self._current, *self._record, self._speed)
 
 
 def main():

@@ -6,10 +6,8 @@ from .numbers import AXES, SENSORS
 from .sensor_style import COLOURS, LOWEST_FREQUENCY, NAMES
 from .vibration import psd
 
-_WIDTHS = {
-    "chassis": (2.6, 0.45),
-    "powertrain": (0.9, 1.0),
-}  # of lines, opacity: below a narrow one a broad one is seen
+# of lines, and their opacity: below a narrow one a broad one is seen
+_WIDTHS = {"chassis": (2.6, 0.45), "powertrain": (0.9, 1.0)}
 CLOSE = 1.0  # s of the history: of a whole run the curve drawn last would hide the other
 
 

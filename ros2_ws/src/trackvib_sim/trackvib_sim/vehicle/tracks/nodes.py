@@ -7,7 +7,8 @@ chain, so a wheel's link has a growing number while the vehicle drives forward.
 Nodes have numbers 1 to n. Cells 0 and n + 1 repeat nodes n and 1, so that neighbours are found without a search for
 the ends of the chain. Quantity q of node i stands in cell q STRIDE + i: STRIDE is known to the compiler, which
 therefore knows that quantities do not overlap and makes vector instructions of the loops over nodes. It is an odd
-number of cache lines, because quantities an even number apart would evict each other from the cache.
+number of cache lines, because quantities an even number apart would evict each other from the cache. Node 1 is where
+such a line begins.
 
 The loops are unrolled by hand, component by component: a tidy `add_links` over small vectors was measured 2.7 times
 slower.
@@ -89,12 +90,12 @@ def build_chain(vehicle, rows):
 
 def new_nodes():
     """Return the state of both tracks, (2, NODE_STATE STRIDE)."""
-    return new_cells(2, NodeOffset.SIZE * STRIDE)
+    return new_cells(2, NodeOffset.SIZE * STRIDE, first=1)
 
 
 def new_node_work():
     """Return room for the intermediate results of both tracks, (2, NODE_WORK STRIDE)."""
-    return new_cells(2, NodeWorkOffset.SIZE * STRIDE)
+    return new_cells(2, NodeWorkOffset.SIZE * STRIDE, first=1)
 
 
 @inlined
