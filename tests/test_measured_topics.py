@@ -9,7 +9,7 @@ from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.qos import LATCHED_QOS, LOOP_WRITER_QOS
 from rclpy.serialization import deserialize_message
 from trackvib_msgs.msg import Measured, MeasuredDescription
-from trackvib_sim.nodes.processes import closed_loop_parameters
+from trackvib_sim.nodes.loop_arguments import closed_loop_parameters
 
 from .processes import trackvib
 

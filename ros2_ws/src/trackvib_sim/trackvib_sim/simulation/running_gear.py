@@ -3,14 +3,13 @@
 It is found beside the simulation, from copies of its state at the end of a period, so that looking changes nothing.
 """
 
-from copy import deepcopy
 from typing import NamedTuple
 
 import numpy as np
 
 from ..numerics.units import RPM
 from ..rui.sweeps.articulated import CutOffset, new_cuts
-from ..rui.sweeps.cells import columns
+from ..rui.sweeps.cells import columns, copy_cells
 from ..rui.sweeps.kinematics import new_motion, update_motion
 from ..vehicle.body_tree import SIDE_NAMES, SIDES, wheel_name
 from ..vehicle.parameters import Vehicle
@@ -83,7 +82,7 @@ class RunningGear:
     def read(self) -> list[np.ndarray]:
         """Return the numbers of each kind at the end of the last period, of which there must have been one."""
         system, state = self._simulation.system, self._simulation.state
-        suspension, tracks = system.suspension, deepcopy(state.tracks)
+        suspension, tracks = system.suspension, copy_cells(state.tracks)
         update_motion(system.tree, state.tree, self._motion)
         self._cuts.cells[:] = 0.0
         # no time passes: the shear of the ground stays as it is
