@@ -7,6 +7,7 @@ own. The lock of an extra has what neither of them brings.
 import re
 import subprocess
 import sys
+from collections import Counter
 from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent
@@ -26,8 +27,10 @@ def lock(name: str, python: tuple, *options: str) -> Path:
 
 
 def packages(path: Path) -> set:
-    """Return the names of the packages that a lock pins."""
-    return set(re.findall(r"^([\w.-]+)==", path.read_text(), re.MULTILINE))
+    """Return the names of the packages that a lock brings everywhere: for some kinds of machine only does not count."""
+    entries = re.findall(r"^([\w.-]+)==\S+ (;?)", path.read_text(), re.MULTILINE)
+    count = Counter(name for name, _ in entries)  # several versions of one share all machines among them
+    return {name for name, marker in entries if not marker or count[name] > 1}
 
 
 def main() -> None:
