@@ -25,6 +25,11 @@ FAILED = -1e6  # (m/s^2)^2, reward of a step in which the run fails: less than a
 CORNER = 0.5  # Hz, of the estimated velocities, as the laws have it
 FASTEST = 100.0  # m/s
 HIGHEST_SEED = 10**9
+# parameters of the simulator node that an environment has, too
+OF_THE_DRIVE = (
+    "speed", "drive", "gears", "engine_speed", "engine_excitation", "track_phase", "passive_current", "physics_rate",
+    "control_rate",
+)  # fmt: skip
 _VECTORS = 2 * ([LARGEST_FORCE] * 3 + [LARGEST_RATE] * 3)
 _MOTION = 2 * [LARGEST_FORCE, FASTEST]
 
@@ -39,8 +44,8 @@ class MountsEnv(gymnasium.Env):
     road : str
         A class of ISO 8608, of which each episode has another road, or a file, which all episodes have.
     **parameters
-        Those of the simulator node that say how it is driven, such as `speed` [m/s], `engine_speed` [r/min], `drive`,
-        `passive_current` [A], `control_rate` [Hz].
+        Those of the simulator node that say how it is driven, `OF_THE_DRIVE`: `speed` [m/s], `engine_speed` [r/min],
+        `drive`, `passive_current` [A], `control_rate` [Hz] and others.
 
     Raises
     ------
@@ -57,16 +62,18 @@ class MountsEnv(gymnasium.Env):
         as the laws estimate them; the action before.
     """
 
-    metadata = {"render_modes": []}  # noqa: RUF012, as Gymnasium has it
+    metadata = {"render_modes": []}
 
     def __init__(self, vehicle=None, road="E", render_mode=None, **parameters):
         if render_mode is not None:
             raise ValueError(f"render_mode is {render_mode!r}, accepted is None; `trackvib view` shows bags of runs")
-        values = {each.name: each.check(parameters.pop(each.name, each.default)) for each in PARAMETERS}
-        if parameters:
-            raise ValueError(f"there is no parameter {', '.join(parameters)}; known are {', '.join(values)}")
+        if unknown := parameters.keys() - set(OF_THE_DRIVE):
+            raise ValueError(f"there is no parameter {', '.join(sorted(unknown))}; known are {', '.join(OF_THE_DRIVE)}")
+        values = {each.name: each.check(parameters.get(each.name, each.default)) for each in PARAMETERS}
         path = find_vehicle(vehicle)
-        self._simulation, usable, _, _ = prepare({**values, "vehicle_file": str(path)})
+        # nobody asks for odometry, so its rate shall clash with no other
+        values |= {"vehicle_file": str(path), "odometry_rate": values["control_rate"]}
+        self._simulation, usable, _, _ = prepare(values)
         coils = self._simulation.mounting.coils
         if coils == 0:
             raise ValueError(f"vehicle {str(path)!r} has no mount with a coil, at least one is needed")
