@@ -2,42 +2,39 @@
 
 from matplotlib.figure import Figure
 
-from .numbers import AXES, SENSORS
-from .sensor_style import COLOURS, LOWEST_FREQUENCY, NAMES
+from .numbers import SENSORS
+from .sensor_style import COLOURS, LOWEST_FREQUENCY
 from .vibration import psd
 
-# of lines, and their opacity: below a narrow one a broad one is seen
-_WIDTHS = {"chassis": (2.6, 0.45), "powertrain": (0.9, 1.0)}
+# Of lines, and opacity: a broad one below a narrow one is seen, too.
+_WIDTHS = {"chassis": (1.8, 0.45), "powertrain": (0.7, 1.0)}
 CLOSE = 1.0  # s of the history: of a whole run the curve drawn last would hide the other
 
 
 def run_picture(prepared, lines, title, path):
-    """Draw a second of both sensors and their vertical PSD, with `numbers.Line`s of known cause, to a PNG file."""
-    figure = Figure(figsize=(13, 9.5), layout="constrained")
+    """Draw a second of the vertical of both sensors, and its PSD with `numbers.Line`s of known cause, to a PNG file."""
+    figure = Figure(figsize=(13, 9), layout="constrained")
+    history, spectrum = figure.subplots(2, 1, height_ratios=(1.0, 1.5))
     figure.suptitle(title, fontsize=11, parse_math=False)  # names of roads and laws come from outside
-    histories, spectrum = figure.subfigures(2, 1, height_ratios=(1.5, 1.0))
-    _histories(histories, prepared)
-    _spectrum(spectrum.subplots(), prepared, lines)
+    _history(history, prepared)
+    _spectrum(spectrum, prepared, lines)
     figure.savefig(path, dpi=110)
 
 
-def _histories(figure, prepared):
+def _history(plot, prepared):
     """The second in the middle of what is settled, or what there is of it."""
     settled = prepared.time[prepared.settled] if prepared.settled.any() else prepared.time
     start = max(0.5 * (settled[0] + settled[-1] - CLOSE), prepared.time[0])
     shown = (prepared.time >= start) & (prepared.time <= start + CLOSE)
-    axes = figure.subplots(len(AXES), 1, sharex=True)
-    for column, (plot, name) in enumerate(zip(axes, NAMES, strict=True)):
-        for sensor in SENSORS:
-            values = prepared.limited[sensor][shown, column]
-            width, alpha = _WIDTHS[sensor]
-            plot.plot(prepared.time[shown], values, color=COLOURS[sensor], linewidth=width, alpha=alpha, label=sensor)
-        plot.set_ylabel(f"{name}\nm/s²")
-        plot.grid(alpha=0.3)
-    axes[0].legend(loc="upper right", fontsize=8, ncols=2)
-    axes[0].set_title("acceleration at the MR mounts' ends, one second", fontsize=10)
-    axes[-1].set_xlabel("time, s")
-    axes[-1].set_xlim(start, start + CLOSE)
+    for sensor in SENSORS:
+        values, (width, alpha) = prepared.limited[sensor][shown, 2], _WIDTHS[sensor]
+        plot.plot(prepared.time[shown], values, color=COLOURS[sensor], linewidth=width, alpha=alpha, label=sensor)
+    plot.set_xlim(start, start + CLOSE)
+    plot.set_xlabel("time, s")
+    plot.set_ylabel("m/s²")
+    plot.set_title("vertical acceleration at the MR mounts' ends, one second", fontsize=10)
+    plot.grid(alpha=0.3)
+    plot.legend(loc="upper right", fontsize=8, ncols=2)
 
 
 def _spectrum(plot, prepared, lines):
@@ -54,8 +51,6 @@ def _spectrum(plot, prepared, lines):
     plot.set_xlim(LOWEST_FREQUENCY, prepared.rate / 2)
     plot.set_xlabel("frequency, Hz")
     plot.set_ylabel("(m/s²)²/Hz")
-    plot.set_title(
-        "vertical power spectral density, with the lines of link passing (v/p) and of engine orders", fontsize=10
-    )
+    plot.set_title("vertical power spectral density, with lines of link passing (v/p) and engine orders", fontsize=10)
     plot.grid(alpha=0.3, which="both")
     plot.legend(fontsize=8, loc="upper left")
