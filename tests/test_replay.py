@@ -86,7 +86,9 @@ def test_both_are_shown(start_cli, recorded_run, rerun, tmp_path):
         assert levels == pytest.approx(recorded["rms_mps2"][sensor], rel=1e-12)
     old, new = (summary["rms_mps2"][which]["powertrain"]["z"] for which in ("recorded", "replayed"))
     assert summary["change_percent"]["powertrain"]["z"] == pytest.approx(100.0 * (new / old - 1.0))
-    assert abs(new / old - 1.0) > 0.001
+    bags = recorded_run / "bag", tmp_path / "out" / "bag"
+    before, after = (read_recording(bag).powertrain.specific_force[:, 2] for bag in bags)
+    assert np.std(after - before) > 0.1 * np.std(before)  # levels of so short a drive may come out alike
     for number in (f"{old:.3f}", f"{new:.3f}", f"{100.0 * (new / old - 1.0):+.1f} %"):
         assert number in replay.output
     assert "driven to the recorded end" in replay.output
