@@ -50,13 +50,17 @@ class ForkedNode:
         """None while it runs; a signal that ended it as its negative number."""
         return self._process.exitcode
 
-    def end(self, grace):
-        """Ask it to end in order; after so many seconds end it."""
+    def interrupt(self):
+        """Ask it to end in order."""
         if self._process.is_alive():
             os.kill(self._process.pid, signal.SIGINT)
-            self._process.join(grace)
+
+    def end(self, grace):
+        """Wait for its end; after so many seconds end it."""
+        self._process.join(grace)
+        if self._process.is_alive():
             self._process.kill()
-        self._process.join()
+            self._process.join()
 
 
 def _wait_and_run(name, arguments):

@@ -8,7 +8,8 @@ from .forked_node import ForkedNode
 # Executables, in the order in which they start.
 FOUR_PROCESSES = ("road_excitation", "controller", "recorder", "simulator")
 ONE_PROCESS = ("recorder", "one_process")  # a recorder that is slow must not hold it
-_LAST_FIRST = ("simulator", "one_process", "controller", "road_excitation", "recorder")
+# In the order in which they end: nobody waits for an answer, and the recorder gets all there is.
+_ENDS = (("simulator", "one_process"), ("controller", "road_excitation"), ("recorder",))
 PARAMETERS = "parameters.yaml"  # the file that all of them read
 _GRACE = 10.0  # s for a process to end by itself
 
@@ -48,9 +49,13 @@ class LoopProcesses:
         return {name: node.exit_code for name, node in self._nodes.items() if node.exit_code is not None}
 
     def stop(self):
-        """End what still runs, the recorder last, so that it gets all there is; returns all exit codes."""
-        for name in sorted(self._nodes, key=_LAST_FIRST.index):
-            self._nodes[name].end(_GRACE)
+        """End what still runs; returns all exit codes."""
+        for names in _ENDS:
+            ending = [self._nodes[name] for name in names if name in self._nodes]
+            for node in ending:
+                node.interrupt()
+            for node in ending:
+                node.end(_GRACE)
         return self.ended()
 
     def last_words(self, name, lines=8):
