@@ -11,7 +11,7 @@ ONE_PROCESS = ("recorder", "one_process")  # a recorder that is slow must not ho
 # In the order in which they end: nobody waits for an answer, and the recorder gets all there is.
 _ENDS = (("simulator", "one_process"), ("controller", "road_excitation"), ("recorder",))
 PARAMETERS = "parameters.yaml"  # the file that all of them read
-_GRACE = 10.0  # s for a process to end by itself
+_GRACE = 60.0  # s for a process to end by itself; on a busy machine it has seconds of work to do
 
 
 class LoopProcesses:
