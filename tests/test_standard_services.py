@@ -7,6 +7,7 @@ import pytest
 from action_msgs.msg import GoalStatus
 from ament_index_python.packages import get_package_share_directory
 from rclpy.action import ActionClient
+from rclpy.qos import QoSProfile
 from simulation_interfaces.action import SimulateSteps
 from simulation_interfaces.msg import Result, SimulationState
 from simulation_interfaces.srv import (
@@ -102,7 +103,9 @@ def hull(call):
 def test_steps_as_an_action(simulator, call, observer):
     """Word of each step, a result when all are done; a goal can be cancelled."""
     call(SetSimulationState, "set_simulation_state", **state(PAUSED))
-    client, told = ActionClient(observer.node, SimulateSteps, "simulator/simulate_steps"), []
+    every = QoSProfile(depth=100)  # word, however slow this side is
+    client = ActionClient(observer.node, SimulateSteps, "simulator/simulate_steps", feedback_sub_qos_profile=every)
+    told = []
     observer.wait_until(client.server_is_ready)
 
     def goal(steps):

@@ -6,6 +6,7 @@ Other than those they answer when what was asked for is done.
 from functools import partial
 
 from mr_mount_controller.node_base.plain_text import shortened
+from mr_mount_controller.node_base.qos import LOOP_WRITER_QOS
 from rclpy.action import ActionServer, CancelResponse
 from rclpy.task import Future
 from simulation_interfaces.action import SimulateSteps
@@ -63,8 +64,9 @@ class StandardServices:
             self._offer(node, kind, name)
         self._goals = {}  # what each goal's cancellation sets done
         self._action = ActionServer(
-            node, SimulateSteps, "~/simulate_steps", self._simulate_steps, cancel_callback=self._cancel
-        )
+            node, SimulateSteps, "~/simulate_steps", self._simulate_steps, cancel_callback=self._cancel,
+            feedback_pub_qos_profile=LOOP_WRITER_QOS,  # a word a step, and a client may be slow for a moment
+        )  # fmt: skip
 
     def close(self):
         """Give back what the action takes."""
