@@ -29,6 +29,7 @@ FMU = Extra("fmu", "the packer of FMUs", (3, 10))
 VIEW = Extra("view", "the viewer", (3, 11))
 DOCS = Extra("docs", "the generator of the documents' site", (3, 10))
 EXTRAS = (STUDIES, TESTS, GYM, FMU, VIEW, DOCS)
+_WHOLE = {"docs": (DOCS,), "fmu": (FMU,)}  # verbs that cannot do without
 
 
 def wanted(verb: str, arguments: list) -> tuple:
@@ -40,9 +41,8 @@ def wanted(verb: str, arguments: list) -> tuple:
         return (STUDIES, TESTS, GYM, FMU)
     if options & {"-h", "--help"}:
         return ()
-    if verb in ("docs", "fmu"):
-        return (DOCS if verb == "docs" else FMU,)
-    if verb == "study":
-        return (STUDIES,) if arguments[:1] == ["figures"] else ()
-    shows = (verb == "view" and "--gif" not in options) or (verb == "run" and "--view" in options)
-    return (VIEW,) if shows else ()
+    if verb == "study" and arguments[:1] == ["figures"]:
+        return (STUDIES,)
+    if (verb == "view" and "--gif" not in options) or (verb == "run" and "--view" in options):
+        return (VIEW,)
+    return _WHOLE.get(verb, ())

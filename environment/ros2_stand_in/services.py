@@ -6,7 +6,7 @@ import time
 os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"  # of messages that are imported from here on: a wrong value is an error
 
 from environment.ros2_stand_in.message_text import fill, from_yaml  # noqa: E402
-from environment.ros2_stand_in.session import Session, absolute, interface, is_hidden  # noqa: E402
+from environment.ros2_stand_in.session import Session, absolute, interface, shown  # noqa: E402
 from environment.ros2_stand_in.terminal import line, lines  # noqa: E402
 
 
@@ -14,11 +14,7 @@ def list_services(chosen):
     """Print names, types or their number."""
     with Session() as session:
         session.settle(chosen.spin_time)
-        found = [
-            (name, ", ".join(types))
-            for name, types in sorted(session.node.get_service_names_and_types())
-            if chosen.include_hidden_services or not is_hidden(name)
-        ]
+        found = shown(session.node.get_service_names_and_types(), chosen.include_hidden_services)
     if chosen.count_services:
         line(len(found))
         return

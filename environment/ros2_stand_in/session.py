@@ -87,6 +87,11 @@ def absolute(name):
     return name if name.startswith("/") else f"/{name}"
 
 
+def shown(names_and_types, hidden):
+    """Return names with their types as text, in order; with those that begin with an underscore if wanted."""
+    return [(name, ", ".join(types)) for name, types in sorted(names_and_types) if hidden or not is_hidden(name)]
+
+
 def is_hidden(name):
     """Return whether a part of a name begins with an underscore."""
     return any(part.startswith("_") for part in name.split("/"))

@@ -1,6 +1,6 @@
 """`ros2 topic list` and `info`."""
 
-from environment.ros2_stand_in.session import Session, absolute, is_hidden
+from environment.ros2_stand_in.session import Session, absolute, shown
 from environment.ros2_stand_in.terminal import Failure, line, lines
 
 
@@ -8,11 +8,7 @@ def list_topics(chosen):
     """Print names, types or counts."""
     with Session() as session:
         session.settle(chosen.spin_time)
-        found = [
-            (name, ", ".join(types))
-            for name, types in sorted(session.node.get_topic_names_and_types())
-            if chosen.include_hidden_topics or not is_hidden(name)
-        ]
+        found = shown(session.node.get_topic_names_and_types(), chosen.include_hidden_topics)
         if chosen.count_topics:
             line(len(found))
         elif chosen.verbose:
