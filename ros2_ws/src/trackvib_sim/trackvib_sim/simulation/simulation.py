@@ -1,13 +1,13 @@
 """The vehicle in motion: holds system, state and road, and advances one control period at a time."""
 
 from collections.abc import Sequence
-from copy import deepcopy
 from typing import NamedTuple
 
 import numpy as np
 
 from ..numerics.units import NANO
 from ..road.store import RoadStore
+from ..rui.sweeps.cells import copy_cells
 from ..vehicle.drive.command import curvature_of
 from ..vehicle.mounting import mounting_of
 from ..vehicle.parameters import Vehicle
@@ -89,7 +89,7 @@ class Simulation:
     def reset(self):
         """Start anew as if just made: time zero, the state in which every run begins, no road."""
         self._held = self._statuses = None  # the road that the generator of control periods was made with, and itself
-        self.state = deepcopy(self._initial)
+        self.state = copy_cells(self._initial)
         self.road = RoadStore()
         self.periods = 0
         self.points.started[:] = False

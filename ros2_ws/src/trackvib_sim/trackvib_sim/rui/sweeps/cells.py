@@ -13,11 +13,22 @@ from ...numerics.compiled import inlined
 CACHE_LINE = 64  # bytes; a vector that straddles two lines takes twice as long to load and to store
 
 
-def new_cells(blocks, width):
-    """Return zeros of shape (blocks, width), aligned with the cache lines."""
+def new_cells(blocks, width, first=0):
+    """Return zeros of shape (blocks, width); cell `first` of block 0 is where a cache line begins."""
     raw = np.zeros(blocks * width + CACHE_LINE // 8)
-    first = (-raw.ctypes.data % CACHE_LINE) // 8
-    return raw[first : first + blocks * width].reshape(blocks, width)
+    ahead = (-raw.ctypes.data - 8 * first) % CACHE_LINE // 8
+    return raw[ahead : ahead + blocks * width].reshape(blocks, width)
+
+
+def copy_cells(record):
+    """Return a deep copy of a record (named tuple) of arrays, each of which lies on the cache lines as it did."""
+    if not isinstance(record, np.ndarray):
+        return type(record)(*map(copy_cells, record)) if isinstance(record, tuple) else record
+    raw = np.empty(record.nbytes + CACHE_LINE, np.uint8)
+    ahead = (record.ctypes.data - raw.ctypes.data) % CACHE_LINE
+    copy = raw[ahead : ahead + record.nbytes].view(record.dtype).reshape(record.shape)
+    copy[...] = record
+    return copy
 
 
 @inlined
