@@ -1,31 +1,34 @@
 """Whole vehicles in one process on one core: how much faster than real time, and in calls of Pinocchio's aba.
 
-    ./trackvib exec -- python bench/vehicle.py
+    ./trackvib exec -- python bench/vehicle.py [--parts]
 
 Body tree, two tracks, mounts and engine of each vehicle that comes with the package, on a road of class E at 10 m/s, in
 steps of 1e-4 s. Beside them, in turns, the articulated-body algorithm of Pinocchio evaluates the default vehicle's body
 tree alone (its call from Python taken off, see bench/body_tree.py): the unit in which machines of different speed can
-be compared.
+be compared. With --parts a second table has the parts of a step, as far as they can be timed alone.
 """
+
+import argparse
 
 import numpy as np
 from machine import best_times, machine
 from peers import PinocchioTree
 from rich.console import Console
 from rich.table import Table
+from step_parts import part_tasks, parts_of_step
 from trackvib_sim.data import DEFAULT_VEHICLE, find_vehicle, vehicle_names
 from trackvib_sim.road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road
 from trackvib_sim.rui.state import rest_state
 from trackvib_sim.simulation.settings import Rates, RunSettings
 from trackvib_sim.simulation.simulation import Simulation
 from trackvib_sim.vehicle.body_tree import build_body_table
-from trackvib_sim.vehicle.system import Operation
+from trackvib_sim.vehicle.system import Operation, new_work
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
 SPEED = 10.0  # m/s
 ENGINE_SPEED = 1650.0  # r/min
 CHUNK = 250  # control periods of 1 ms at a time
-CALLS, ROUNDS = 2000, 40
+CALLS, ROUNDS, STEPS = 2000, 40, 2000
 GRAVITY = (0.0, 0.0, -9.81)
 
 
@@ -49,9 +52,18 @@ class Drive:
     def __call__(self):
         self._simulation.advance_many(self._current, *self._record, self._speed)
 
+    def parts(self):
+        """Return the tasks of `step_parts.part_tasks` where the vehicle is now."""
+        s = self._simulation
+        road = s.road.around(s.distance - s.system.drive.reach, s.distance + s.system.drive.reach)
+        return part_tasks((s.system, s.state, road, new_work(s.system), s.points, s.sample), STEPS)
+
 
 def main():
     """Drive, time, print."""
+    arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    arguments.add_argument("--parts", action="store_true", help="print the parts of a step, too")
+    with_parts = arguments.parse_args().parts
     vehicles = {name: read_vehicle(find_vehicle(name))[0] for name in vehicle_names()}
     bodies = build_body_table(vehicles[DEFAULT_VEHICLE])
     drives = {name: Drive(vehicle) for name, vehicle in vehicles.items()}
@@ -61,20 +73,43 @@ def main():
         peer.accelerations(state, np.zeros(len(state.hinge)))
     conventions = peers["tree"].calls(CALLS).keys()
     tasks = {(name, how): peer.calls(CALLS)[how] for name, peer in peers.items() for how in conventions}
-    times = best_times({**drives, **tasks}, ROUNDS)
+    parts = {(name, part): task for name, drive in drives.items() if with_parts for part, task in drive.parts().items()}
+    times = best_times({**drives, **tasks, **parts}, ROUNDS)
     aba = min(times["tree", how] - times["one body", how] for how in conventions) / CALLS
     simulated = CHUNK * 1e-3
-    factor, calls = simulated / times[DEFAULT_VEHICLE], times[DEFAULT_VEHICLE] / simulated / aba
+    factor = simulated / times[DEFAULT_VEHICLE]
+    calls = {name: times[name] / simulated / aba for name in vehicles}
 
     table = Table(title=f"Whole vehicles, class E, {SPEED:g} m/s, one core of {machine()}")
-    for column in ("what", "time, us"):
+    for column in ("what", "time, us", "aba calls a simulated second"):
         table.add_column(column, justify="left" if column == "what" else "right")
     for name in vehicles:
-        table.add_row(f"{name}, one step of 1e-4 s", f"{1e6 * times[name] / (10 * CHUNK):.2f}")
-    table.add_row("Pinocchio aba, body tree alone", f"{1e6 * aba:.2f}")
-    Console().print(table)
+        table.add_row(f"{name}, one step of 1e-4 s", f"{1e6 * times[name] / (10 * CHUNK):.2f}", f"{calls[name]:.0f}")
+    table.add_row("Pinocchio aba, body tree alone", f"{1e6 * aba:.2f}", "")
+    out = Console()
+    out.print(table)
+    if with_parts:
+        by_vehicle = {
+            name: parts_of_step(
+                {part: times[name, part] / STEPS for other, part in parts if other == name}, times[name] / (10 * CHUNK)
+            )
+            for name in vehicles
+        }
+        out.print(_parts_table(by_vehicle, aba))
     print(f"real time factor = {factor:.1f}")
-    print(f"aba calls per simulated second = {calls:.0f}")
+    print(f"aba calls per simulated second = {calls[DEFAULT_VEHICLE]:.0f}")
+
+
+def _parts_table(by_vehicle, aba):
+    """Return the table of the parts of each vehicle's step [s], given the time of an aba call [s]."""
+    table = Table(title="Parts of a step, us / aba calls a simulated second")
+    table.add_column("part")
+    for name in by_vehicle:
+        table.add_column(name, justify="right")
+    for part in by_vehicle[DEFAULT_VEHICLE]:
+        spent = [by_vehicle[name][part] for name in by_vehicle]
+        table.add_row(part, *(f"{1e6 * time:.2f} / {1e4 * time / aba:.0f}" for time in spent))
+    return table
 
 
 if __name__ == "__main__":

@@ -16,8 +16,9 @@ from trackvib_sim.drawings.vehicle_picture import vehicle_picture
 from trackvib_sim.scene.teeth import half_gap
 from trackvib_sim.vehicle.tracks.layout import TrackDoesNotFit
 from trackvib_sim.vehicle.tracks.nodes import STRIDE, NodeWorkOffset, new_node_work
+from trackvib_sim.vehicle.tracks.rims import WheelLoadOffset
 from trackvib_sim.vehicle.tracks.sprockets import add_sprocket
-from trackvib_sim.vehicle.tracks.wheels import Hub, WheelLoadOffset
+from trackvib_sim.vehicle.tracks.wheels import Hub
 from trackvib_sim.vehicle.vehicle_file import parse_vehicle, read_vehicle
 
 PNG = b"\x89PNG"

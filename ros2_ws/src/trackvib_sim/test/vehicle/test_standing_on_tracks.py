@@ -28,10 +28,10 @@ def standing_loads(stood, moved, added):
     """Forces (2, links, 3) of the ground on the nodes, their places, and what the tracks put on the bodies."""
     standing, _ = stood
     system, state = standing.system, standing.state
-    cuts, work = new_cuts(system.tree), new_track_work()
+    cuts, work = new_cuts(system.tree), new_track_work(system.tracks, kept=2)
     road = Road(-400, 0.05, np.zeros((2, 801)))
     motion, path = moved(system.tree, state.tree), state.drive.path
-    add_tracks(system.tracks, state.tracks, state.tree, road, path, motion, cuts, work, 0.0)
+    add_tracks(system.tracks, state.tracks, state.tree, road, path, motion, cuts, work, 0.0, True)
 
     def vectors(cells, first):
         by_quantity = cells.reshape(2, -1, STRIDE)[:, first : first + 3, 1 : system.tracks.chain.links[0] + 1]

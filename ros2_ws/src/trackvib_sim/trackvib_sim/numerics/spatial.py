@@ -107,6 +107,42 @@ def sine_cosine(x):
     return -sine if quarter >= 2.0 else sine, -cosine if (quarter == 1.0) | (quarter == 2.0) else cosine
 
 
+# Cephes' `atan.c`: atan(t) = t + t^3 P(t^2) / Q(t^2) up to t = 0.66
+_ARCTAN_P = (
+    -8.750608600031904122785e-01,
+    -1.615753718733365076637e01,
+    -7.500855792314704667340e01,
+    -1.228866684490136173410e02,
+    -6.485021904942025371773e01,
+)
+_ARCTAN_Q = (
+    2.485846490142306297962e01,
+    1.650270098316988542046e02,
+    4.328810604912902668951e02,
+    4.853903996359136964868e02,
+    1.945506571482613964425e02,
+)
+
+
+@exact
+def vector_angle(x, y):
+    """Return the angle [rad] of a plane vector other than zero, to the last digit but one and without a branch.
+
+    The quotient on an eighth of a turn is that of Cephes (`atan.c`).
+    """
+    larger, smaller = max(abs(x), abs(y)), min(abs(x), abs(y))
+    # beyond a sixteenth of a turn the angle is taken from the diagonal
+    far = smaller > 0.41421356237309503 * larger
+    t = (smaller - larger if far else smaller) / (smaller + larger if far else larger)
+    z, p, q = t * t, _ARCTAN_P, _ARCTAN_Q
+    above = (((p[0] * z + p[1]) * z + p[2]) * z + p[3]) * z + p[4]
+    below = ((((z + q[0]) * z + q[1]) * z + q[2]) * z + q[3]) * z + q[4]
+    angle = t + t * z * (above / below) + (0.25 * math.pi if far else 0.0)
+    angle = 0.5 * math.pi - angle if abs(y) > abs(x) else angle
+    angle = math.pi - angle if x < 0.0 else angle
+    return -angle if y < 0.0 else angle
+
+
 @inlined
 def axis_rotation(axis, s, c):
     """Return the rotation matrix about a unit axis by an angle of sine s and cosine c (Rodrigues' formula)."""

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy import signal
 
-from ..numerics.compiled import kernel
+from ..numerics.compiled import inlined, kernel
 from ..numerics.spatial import load3, rotate_back
 from ..rui.sweeps.kinematics import MotionOffset, body_axes, motion_vector, point_place
 from ..rui.sweeps.riccati import point_specific_force
@@ -72,7 +72,7 @@ def low_pass(corner, rate):
     return np.hstack((b * (a.sum(axis=1) / b.sum(axis=1))[:, None], a[:, 1:]))
 
 
-@kernel
+@inlined
 def measure(work, points, sample, step):
     """Take one physics step into a sample: of sensors what their filters give, of probes what is there."""
     for i in range(points.body.size):
@@ -108,7 +108,7 @@ def _rest(sections, memory, values):
             memory[s, 0, c] = (sections[s, 1] - sections[s, 3]) * values[c] + memory[s, 1, c]
 
 
-@kernel
+@inlined
 def _filter(sections, memory, values):
     """Lead values (c,) through a filter of sections of second order, in place."""
     for s in range(sections.shape[0]):

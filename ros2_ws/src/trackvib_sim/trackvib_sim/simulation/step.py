@@ -19,9 +19,9 @@ from ..vehicle.drive.engine import add_engine, imposed_displacement
 from ..vehicle.drive.path import LEFT_BEHIND, path_is_left
 from ..vehicle.hinge_springs import add_hinge_springs
 from ..vehicle.mount_energy import update_mount_energy
-from ..vehicle.mounts import MountSample, add_mounts, new_mount_sample, observe_mounts
+from ..vehicle.mounts import MountSample, new_mount_sample, observe_mounts, push_mounts
 from ..vehicle.suspension import add_suspension
-from ..vehicle.tracks.tracks import add_tracks, move_tracks, track_skips, wheel_below_road
+from ..vehicle.tracks.tracks import advance_tracks, track_skips, wheel_below_road
 from .sensing import measure
 
 
@@ -73,14 +73,25 @@ def new_sample(points, steps, mounts):
 
 @inlined
 def add_forces(system, state, road, work):
-    """From the state the motion of all bodies, and on them all forces."""
+    """From the state the motion of all bodies, and on them all forces; the tracks' nodes are advanced by the step."""
     tree, motion, cuts = system.tree, work.motion, work.cuts
     work.torques[:] = 0.0
     add_hinge_springs(system.springs, state.tree, work.torques)
     add_suspension(system.suspension, state.tree, work.torques)
     update_motion(tree, state.tree, motion)
     open_cuts(tree, motion, work.torques, cuts)
-    add_tracks(system.tracks, state.tracks, state.tree, road, state.drive.path, motion, cuts, work.tracks, system.dt)
+    advance_tracks(
+        system.tracks,
+        state.tracks,
+        state.tree,
+        road,
+        state.drive.path,
+        motion,
+        tree.gravity,
+        cuts,
+        work.tracks,
+        system.dt,
+    )
     displacement, displacement_rate = imposed_displacement(system.drive.engine, state.drive.crank)
     apply_elastic_hinges(tree, motion, cuts)
     update_mount_energy(
@@ -93,23 +104,21 @@ def add_forces(system, state, road, work):
         system.dt,
         state.mount_energy,
     )
-    add_mounts(system.mounts, state.fields, motion, cuts, state.coils.field, displacement, displacement_rate)
+    push_mounts(system.mounts, motion, cuts, state.mount_energy.force)
     add_engine(system.drive.engine, state.drive.crank, motion, cuts)
     add_driver(system.drive, state.drive, state.tree.hinge_rate, motion, cuts, system.dt)
 
 
 @inlined
 def end_step(system, state, road, work, points, sample, step):
-    """With all accelerations known: measure the period's `step`, then integrate.
+    """With all accelerations known: measure the period's `step`, then integrate bodies and drive.
 
     Returns `GOOD`, or what made the state leave the valid range.
     """
     measure(work, points, sample, step)
     integrate(system.tree, state.tree, work.response, system.dt)
-    move_tracks(system.tracks, state.tracks, work.motion, system.tree.gravity, work.tracks, system.dt)
     end_drive_step(system.drive, state.drive, state.tree.position[0, 0], state.tree.position[0, 1], system.dt)
-    # the hull's accelerations act on its speed, every other one on that of its hinge
-    total = state.tree.velocity.sum() + state.tree.angular_velocity.sum() + state.tree.hinge_rate.sum()
+    total = _total_speed(state.tree)
     # not np.isfinite: it compiles to total - total == 0, which reassociation turns into "true"
     if not abs(total) < np.inf:
         return Status.NOT_FINITE
@@ -125,6 +134,21 @@ def end_step(system, state, road, work, points, sample, step):
     if track_skips(work.tracks):
         return Status.SKIPPED
     return Status.GOOD
+
+
+@inlined
+def _total_speed(tree):
+    """Sum of all speeds: accelerations of free bodies act on theirs, every other one on that of its hinge.
+
+    A loop is a vector instruction for many of them, which an array's own sum is not.
+    """
+    total = 0.0
+    for row in range(tree.hinge_rate.size):
+        total += tree.hinge_rate[row]
+    for free in range(tree.velocity.shape[0]):
+        for k in range(3):
+            total += tree.velocity[free, k] + tree.angular_velocity[free, k]
+    return total
 
 
 @kernel

@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import expm
 
-from ..numerics.compiled import kernel
+from ..numerics.compiled import inlined
 
 _EXACT = 1e-6  # of a physics step
 
@@ -105,7 +105,7 @@ def settle_coils(coil, coils, demanded):
         part[:] = min(max(demanded, coil.lowest), coil.highest)
 
 
-@kernel
+@inlined
 def drive_coils(coil, demanded, coils):
     """Let all coils follow the demanded currents (c,) [A] for one step."""
     for i in range(coils.current.size):
@@ -118,7 +118,7 @@ def drive_coils(coil, demanded, coils):
         coils.field[i] = held + (coils.field[i] - held) * coil.field_decay + (current - held) * coil.field_share
 
 
-@kernel
+@inlined
 def _delayed(waiting, demanded):
     """Put a demand at the end of the line, return the one at its head."""
     if waiting.size == 0:

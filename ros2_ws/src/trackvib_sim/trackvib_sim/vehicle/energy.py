@@ -31,7 +31,8 @@ from .mounts import mount_current, mount_deflection
 from .suspension import add_suspension
 from .system import new_state, new_work
 from .tracks.nodes import STRIDE, NodeOffset
-from .tracks.tracks import TRACK_PARTS, TrackPart, add_tracks
+from .tracks.one_track import TrackPart
+from .tracks.tracks import TRACK_PARTS, add_tracks
 
 
 class Part(IntEnum):
@@ -138,7 +139,18 @@ def _evaluate(system, state, road, work, account):
     cuts.cells[:] = 0.0
     add_driver(system.drive, state.drive, state.tree.hinge_rate, motion, cuts, system.dt)
     account.given[Source.DRIVER] = _power(motion, cuts)
-    add_tracks(system.tracks, state.tracks, state.tree, road, state.drive.path, motion, cuts, work.tracks, system.dt)
+    add_tracks(
+        system.tracks,
+        state.tracks,
+        state.tree,
+        road,
+        state.drive.path,
+        motion,
+        cuts,
+        work.tracks,
+        system.dt,
+        True,
+    )
     for part in range(TRACK_PARTS):
         account.stored[part] += work.tracks.stored[part]
         account.dissipation[part] += work.tracks.dissipation[part]

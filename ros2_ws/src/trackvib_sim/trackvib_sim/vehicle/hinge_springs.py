@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..numerics.compiled import kernel
+from ..numerics.compiled import inlined
 from .body_tree import bodies_on_hinges, running_gear_kind
 
 
@@ -36,7 +36,7 @@ def build_hinge_springs(vehicle, rows):
     return HingeSprings(np.array(row, dtype=np.int64), np.array(stiffness, float), np.array(damping, float))
 
 
-@kernel
+@inlined
 def add_hinge_springs(springs, state, torques):
     """Add the spring and damper torques to the hinges."""
     for k in range(springs.row.size):

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..numerics.compiled import kernel
+from ..numerics.compiled import inlined
 from ..numerics.spatial import add, dot, load3, scale, store3, subtract
 from .mount_law import mount_axes, mount_force, mount_stored_energy, switch_field
 from .mounts import mount_current, mount_deflection
@@ -73,9 +73,9 @@ def mount_energy_account(account):
     return MountEnergy(*(float(part.sum()) for part in parts))
 
 
-@kernel
+@inlined
 def update_mount_energy(mounts, fields, motion, currents, imposed, imposed_rate, dt, account):
-    """Let the fields follow their currents and book the last step [s], given what `add_mounts` has for the next one."""
+    """Let the fields follow their currents, book the last step [s] and note the mounts' forces for the next one."""
     for index in range(mounts.body.size):
         _, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)
         current, own_rate = mount_current(mounts, index, currents), mounts.excited[index] * imposed_rate

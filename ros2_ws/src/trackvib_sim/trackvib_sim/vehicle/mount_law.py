@@ -25,7 +25,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..numerics.compiled import kernel
+from ..numerics.compiled import inlined, kernel
 from ..numerics.spatial import dot, load3, scale, store3
 
 
@@ -61,7 +61,7 @@ def mount_characteristics(mounts, index, current):
     return k, 2.0 * zeta * np.sqrt(k * mounts.carried_mass[index])
 
 
-@kernel
+@inlined
 def mount_axes(mounts, index, current):
     """Return stiffness [N/m] and damping [N s/m] of one mount along its own axes."""
     k, c = mount_characteristics(mounts, index, current)
@@ -79,12 +79,12 @@ def lay_fields(mounts, currents, fields):
         fields.limit[index] = yield_force(mounts, index, currents[index])
 
 
-@kernel
+@inlined
 def _field_stiffness(mounts, index, current):
     return max(0.0, mount_characteristics(mounts, index, current)[0] - mounts.rubber[index])
 
 
-@kernel
+@inlined
 def yield_force(mounts, index, current):
     """Return F_y(I) [N] of one mount along z, infinite of one whose fluid does not yield."""
     i, force = min(max(current, 0.0), mounts.highest[index]), 0.0
@@ -120,7 +120,7 @@ def _work(stiffness, limit, force, way):
     return back + limit / stiffness * (limit * ways + (limit - abs(force)) * np.expm1(-ways))
 
 
-@kernel
+@inlined
 def field_force(mounts, fields, index, l):
     """Return f [N] of one mount at a deflection [m], along its axes."""
     dk, limit, ratio = fields.stiffness[index], fields.limit[index], mounts.stiffness[index]
@@ -132,7 +132,7 @@ def field_force(mounts, fields, index, l):
     )
 
 
-@kernel
+@inlined
 def _field_energy(mounts, index, dk, force):
     """Return what a field of this stiffness holds [J]; a force of none holds nothing."""
     energy = 0.0
@@ -143,7 +143,7 @@ def _field_energy(mounts, index, dk, force):
     return energy
 
 
-@kernel
+@inlined
 def switch_field(mounts, fields, index, current, l):
     """Let the field of one mount follow its current [A] at a deflection [m].
 
@@ -169,7 +169,7 @@ def switch_field(mounts, fields, index, current, l):
     return heat, lost
 
 
-@kernel
+@inlined
 def _yield_heat(mounts, fields, index, f, l_d):
     """Return the power [W] that the fluid turns into heat as it yields."""
     heat, limit = 0.0, fields.limit[index]
@@ -180,7 +180,7 @@ def _yield_heat(mounts, fields, index, f, l_d):
     return heat
 
 
-@kernel
+@inlined
 def mount_force(mounts, fields, index, current, l, l_d):
     """Return the force on the body in the mount's axes [N], and the power that is turned into heat [W]."""
     rubber = scale(mounts.rubber[index], load3(mounts.stiffness, index))
@@ -195,7 +195,7 @@ def mount_force(mounts, fields, index, current, l, l_d):
     return force, dot(damping, l_d) + _yield_heat(mounts, fields, index, field, l_d)
 
 
-@kernel
+@inlined
 def mount_stored_energy(mounts, fields, index, l):
     """Return the energy [J] that one mount stores, its preload included; zero where the springs are at ease."""
     rubber = scale(mounts.rubber[index], load3(mounts.stiffness, index))

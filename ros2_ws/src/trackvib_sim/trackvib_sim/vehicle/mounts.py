@@ -129,7 +129,7 @@ def mount_current(mounts, index, currents):
     return currents[index] if index < mounts.coils else 0.0
 
 
-@kernel
+@inlined
 def mount_deflection(mounts, motion, index, imposed, imposed_rate):
     """Return upper place (global), deflection l and its rate l_d in the mount's axes [Tao2025, hinge 8].
 
@@ -153,15 +153,28 @@ def _axes(mounts, index):
     return (a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8])
 
 
-@kernel
+@inlined
 def add_mounts(mounts, fields, motion, cuts, currents, imposed, imposed_rate):
     """Add the mounts' forces to bodies and parents; `imposed` as in `mount_deflection`."""
     for index in range(mounts.body.size):
         upper, l, l_d = mount_deflection(mounts, motion, index, imposed, imposed_rate)
         force, _ = mount_force(mounts, fields, index, mount_current(mounts, index, currents), l, l_d)
-        force = rotate(rotation(motion, mounts.parent[index]), rotate(_axes(mounts, index), force))
-        apply_force(cuts, motion, mounts.body[index], upper, force)
-        apply_force(cuts, motion, mounts.parent[index], upper, scale(-1.0, force))
+        _push(mounts, motion, cuts, index, upper, force)
+
+
+@inlined
+def push_mounts(mounts, motion, cuts, forces):
+    """Add the mounts' forces (m, 3) [N], in their own axes, where somebody has found them already."""
+    for index in range(mounts.body.size):
+        upper = point_place(motion, mounts.body[index], load3(mounts.upper, index))
+        _push(mounts, motion, cuts, index, upper, load3(forces, index))
+
+
+@inlined
+def _push(mounts, motion, cuts, index, upper, force):
+    force = rotate(rotation(motion, mounts.parent[index]), rotate(_axes(mounts, index), force))
+    apply_force(cuts, motion, mounts.body[index], upper, force)
+    apply_force(cuts, motion, mounts.parent[index], upper, scale(-1.0, force))
 
 
 @kernel

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..numerics.compiled import kernel
+from ..numerics.compiled import inlined
 from .body_tree import SIDES, arm_name
 from .running_gear_parameters import at_stations
 
@@ -55,7 +55,7 @@ def build_suspension(vehicle, rows, load):
     )
 
 
-@kernel
+@inlined
 def shock_force(suspension, i, speed):
     """Return the force of arm i's shock absorber against a wheel speed [m/s]: linear up to the blow-off force."""
     damping, blow_off = suspension.shock_damping[i], suspension.blow_off_force[i]
@@ -65,7 +65,7 @@ def shock_force(suspension, i, speed):
     return force if speed >= 0.0 else -force
 
 
-@kernel
+@inlined
 def add_suspension(suspension, state, torques):
     """Add the torques of bars, friction, shock absorbers and bump stops to the arms' hinges."""
     s = suspension

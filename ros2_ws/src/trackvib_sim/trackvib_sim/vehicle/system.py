@@ -146,4 +146,4 @@ def _rest(tree):
 def new_work(system):
     """Return working room for a system."""
     tree = system.tree
-    return Work(new_motion(tree), new_rows(tree), new_cuts(tree), new_response(tree), new_track_work())
+    return Work(new_motion(tree), new_rows(tree), new_cuts(tree), new_response(tree), new_track_work(system.tracks))

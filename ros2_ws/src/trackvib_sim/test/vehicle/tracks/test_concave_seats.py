@@ -9,8 +9,9 @@ from trackvib_sim.data import find_vehicle
 from trackvib_sim.vehicle.body_tree import build_body_table
 from trackvib_sim.vehicle.parameters import TeethParameters
 from trackvib_sim.vehicle.tracks.nodes import STRIDE, NodeWorkOffset, new_node_work
+from trackvib_sim.vehicle.tracks.rims import CREEP, WheelLoadOffset
 from trackvib_sim.vehicle.tracks.sprockets import add_sprocket, build_sprockets
-from trackvib_sim.vehicle.tracks.wheels import CREEP, Hub, WheelLoadOffset
+from trackvib_sim.vehicle.tracks.wheels import Hub
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
 LINKS, FIRST = 60, 29

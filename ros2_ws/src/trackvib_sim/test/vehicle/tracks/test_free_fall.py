@@ -19,7 +19,8 @@ from trackvib_sim.rui.sweeps.kinematics import MotionOffset, update_motion
 from trackvib_sim.vehicle.system import new_state, new_work
 from trackvib_sim.vehicle.tracks.initial import assemble_tracks
 from trackvib_sim.vehicle.tracks.nodes import STRIDE, NodeOffset, NodeWorkOffset
-from trackvib_sim.vehicle.tracks.tracks import TrackPart, add_tracks
+from trackvib_sim.vehicle.tracks.one_track import TrackPart
+from trackvib_sim.vehicle.tracks.tracks import add_tracks, new_track_work
 
 from .momentum import momentum, shoes
 
@@ -37,10 +38,12 @@ class Exchanged(NamedTuple):
 
 def exchange(system, state, road):
     """Evaluate the tracks' forces in a state; returns them and the `vehicle.tracks.TrackWork`."""
-    work, chain = new_work(system), system.tracks.chain
+    work, chain = new_work(system)._replace(tracks=new_track_work(system.tracks, kept=2)), system.tracks.chain
     update_motion(system.tree, state.tree, work.motion)
     path = state.drive.path
-    add_tracks(system.tracks, state.tracks, state.tree, road, path, work.motion, work.cuts, work.tracks, system.dt)
+    add_tracks(
+        system.tracks, state.tracks, state.tree, road, path, work.motion, work.cuts, work.tracks, system.dt, True
+    )
     turn = columns(work.motion, MotionOffset.ROTATION, 9)[chain.hull].reshape(3, 3)
     node = shoes(chain, work.tracks.nodes)
     before = work.tracks.nodes.reshape(2, -1, STRIDE)[:, :, : chain.links[0]]

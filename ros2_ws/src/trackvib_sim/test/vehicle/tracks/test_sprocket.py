@@ -16,8 +16,9 @@ from trackvib_sim.vehicle.tracks.nodes import (
     new_nodes,
     see_from_hull,
 )
+from trackvib_sim.vehicle.tracks.rims import WheelLoadOffset
 from trackvib_sim.vehicle.tracks.sprockets import add_sprocket
-from trackvib_sim.vehicle.tracks.wheels import Hub, WheelLoadOffset, find_outermost
+from trackvib_sim.vehicle.tracks.wheels import Hub, find_outermost
 
 from .momentum import shoes
 

@@ -36,8 +36,9 @@ def mean_tension(vehicle, simulation, level_road):
                 work.cuts,
                 work.tracks,
                 system.dt,
+                False,
             )
-            tension = shoes(system.tracks.chain, work.tracks.nodes)[RIGHT, NodeWorkOffset.TENSION]
+            tension = shoes(system.tracks.chain, work.tracks.nodes)[-1, NodeWorkOffset.TENSION]
             assert tension.shape == (links,) and tension.min() > 0.0
             means.append(tension.mean())
         return np.mean(means)

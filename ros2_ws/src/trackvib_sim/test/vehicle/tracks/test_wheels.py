@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from trackvib_sim.vehicle.tracks.nodes import NodeWorkOffset, close_chain, new_node_work
-from trackvib_sim.vehicle.tracks.wheels import LOWER_RUN, Hub, WheelLoadOffset, add_wheel, find_link
+from trackvib_sim.vehicle.tracks.rims import WheelLoadOffset, new_contacts, press_contacts, take_contacts
+from trackvib_sim.vehicle.tracks.wheels import LOWER_RUN, Hub, find_link, list_contacts
 
 from .momentum import shoes
 
@@ -31,10 +32,12 @@ def _polygon(system, bends):
 
 def _touch(system, work, hub):
     """What the chain does to the front left road wheel at a hub."""
-    load, link = np.zeros(WheelLoadOffset.SIZE), LINKS // 2
+    load, link, contacts = np.zeros(WheelLoadOffset.SIZE), LINKS // 2, new_contacts(1)
     for _ in range(LINKS):
         link = find_link(LOWER_RUN, hub.x, work, link, LINKS)
-    add_wheel(system.tracks.wheels, 0, 0, hub, link, LINKS, work, load)
+    count = list_contacts(system.tracks.wheels, 0, 0, hub, link, LINKS, work, contacts, 0)
+    press_contacts(contacts, count)
+    take_contacts(contacts, 0, count, LINKS, work, load)
     return load
 
 

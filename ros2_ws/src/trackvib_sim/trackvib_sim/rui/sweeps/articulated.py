@@ -104,13 +104,13 @@ def _open(body, m, cut, w, i):
     put3(cut, CutOffset.MOMENT, w, i, scale(-1.0, moment))
 
 
-@kernel
+@inlined
 def apply_force(cuts, motion, body, place, force):
     """Add a force [N] that acts on a body at a global place."""
     apply_wrench(cuts, body, force, cross(subtract(place, motion_vector(motion, MotionOffset.ORIGIN, body)), force))
 
 
-@kernel
+@inlined
 def apply_wrench(cuts, body, force, moment):
     """Add a force [N] and a moment about the body's origin [N m]."""
     w = len(cuts.lanes)

@@ -2,13 +2,13 @@
 
 import math
 
-from ...numerics.compiled import kernel
+from ...numerics.compiled import inlined, kernel
 from ...numerics.spatial import add, cross, load3, multiply, rotate, rotate_back, scale, subtract
 from .articulated import apply_wrench
 from .kinematics import MotionOffset, motion_vector, point_place, point_velocity, rotation
 
 
-@kernel
+@inlined
 def apply_elastic_hinges(tree, motion, cuts):
     """Add the wrenches of all elastic hinges to both bodies."""
     hinges = tree.elastic

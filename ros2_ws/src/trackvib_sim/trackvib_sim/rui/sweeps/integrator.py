@@ -1,11 +1,11 @@
 """Symplectic Euler on the coordinates of a tree."""
 
-from ...numerics.compiled import kernel
+from ...numerics.compiled import inlined
 from ...numerics.spatial import turn_quaternion, vector
 from .riccati import ResponseOffset
 
 
-@kernel
+@inlined
 def integrate(tree, state, response, dt):
     """Advance the state by dt with symplectic Euler: speeds by the accelerations, then places by the new speeds."""
     w = len(tree.lanes)

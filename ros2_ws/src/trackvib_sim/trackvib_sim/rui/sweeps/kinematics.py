@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...numerics.compiled import inlined, kernel
+from ...numerics.compiled import inlined
 from ...numerics.spatial import (
     add,
     axis_rotation,
@@ -191,13 +191,13 @@ def rotation(motion, row):
     return get9(motion.cells[row // w], MotionOffset.ROTATION, w, row % w)
 
 
-@kernel
+@inlined
 def point_place(motion, body, local):
     """Return the global place of a body-fixed point, given in body axes from the body's origin [m]."""
     return add(motion_vector(motion, MotionOffset.ORIGIN, body), rotate(rotation(motion, body), local))
 
 
-@kernel
+@inlined
 def point_velocity(motion, body, place):
     """Return the velocity of the body-fixed point at a global place [m/s]."""
     arm = subtract(place, motion_vector(motion, MotionOffset.ORIGIN, body))
@@ -207,7 +207,7 @@ def point_velocity(motion, body, place):
     )
 
 
-@kernel
+@inlined
 def body_axes(motion, body, a):
     """Return a global vector in the axes of a body."""
     return rotate_back(rotation(motion, body), a)

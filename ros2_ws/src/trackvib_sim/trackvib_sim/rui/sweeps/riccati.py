@@ -228,7 +228,7 @@ def _hand_out(tree, turns, m, cut, up, response):
         response[ResponseOffset.HINGE * w + i] = thdd
 
 
-@kernel
+@inlined
 def point_specific_force(motion, response, body, place):
     """Return acceleration less gravity of the body-fixed point at a global place [m/s^2], global axes."""
     w = len(response.lanes)

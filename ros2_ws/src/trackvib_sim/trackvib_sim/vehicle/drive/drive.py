@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...numerics.compiled import kernel
+from ...numerics.compiled import inlined
 from ...numerics.table import interpolate
 from .driveline import Driveline, Shaft, build_driveline, crank_speed, new_shaft
 from .driver import Driver, Driving, build_driver, new_driving
@@ -63,7 +63,7 @@ def begin_drive(drive, state):
     return state
 
 
-@kernel
+@inlined
 def end_drive_step(drive, state, x, y, dt):
     """Advance time and crankshaft by dt, and find where the hull's origin, now at x and y [m], is on the path.
 

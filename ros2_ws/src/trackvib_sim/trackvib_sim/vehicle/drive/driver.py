@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...numerics.compiled import kernel
+from ...numerics.compiled import inlined
 from ...numerics.spatial import scale
 from ...rui.sweeps.articulated import apply_wrench
 from ...rui.sweeps.kinematics import MotionOffset, body_axes, motion_vector, rotation
@@ -69,7 +69,7 @@ def new_driving():
     return Driving(np.zeros(1), np.zeros(1), np.zeros(2), np.zeros(2))
 
 
-@kernel
+@inlined
 def add_driver(drive, state, hinge_rate, motion, cuts, dt):
     """Add the torques on the sprockets of a `Drive`, and advance driver and shafts in its `DriveState` by dt."""
     driver, driving = drive.driver, state.driving
@@ -85,7 +85,7 @@ def add_driver(drive, state, hinge_rate, motion, cuts, dt):
         driving.done[0] += dt * driving.torque[side] * hinge_rate[row]
 
 
-@kernel
+@inlined
 def _force(drive, state, forward, dt):
     """Return the force [N] that the driver asks for; the integral rests while it is cut."""
     driver, driving = drive.driver, state.driving
@@ -105,7 +105,7 @@ def _force(drive, state, forward, dt):
     return force
 
 
-@kernel
+@inlined
 def _sprockets(drive, state, hinge_rate, force, dt):
     """Return the torque [N m] on both sprockets: of the engine through the shafts, of the brakes directly."""
     torque = drive.driver.radius * force
@@ -121,7 +121,7 @@ def _sprockets(drive, state, hinge_rate, force, dt):
     return passed if drives else passed + torque
 
 
-@kernel
+@inlined
 def _steering_moment(drive, state, motion, velocity, dt):
     """Return the moment [N m] to the left that brings the hull back to its path, given its velocity in its own axes.
 
@@ -146,7 +146,7 @@ def _steering_moment(drive, state, motion, velocity, dt):
     return moment + state.driving.turn_integral[0]
 
 
-@kernel
+@inlined
 def turn_sprocket(driver, motion, cuts, sprocket, torque):
     """Turn a sprocket about its axle by a torque [N m] that stands on the hull."""
     moment = scale(torque, motion_vector(motion, MotionOffset.HINGE_AXIS, sprocket))

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...numerics.compiled import kernel
+from ...numerics.compiled import inlined
 from ...numerics.spatial import load3, rotate, scale
 from ...numerics.units import RPM
 from ...rui.sweeps.articulated import apply_force, apply_wrench
@@ -54,14 +54,14 @@ def build_engine(vehicle, rows, imposed_displacement):
     )
 
 
-@kernel
+@inlined
 def turn_crank(crank, speed, dt):
     """Advance the crankshaft by dt to a speed [rad/s], exactly where speed changes linearly in time."""
     crank.angle[0] = (crank.angle[0] + 0.5 * dt * (crank.speed[0] + speed)) % CYCLE
     crank.speed[0] = speed
 
 
-@kernel
+@inlined
 def add_engine(engine, crank, motion, cuts):
     """Add the engine's forces and moments to the powertrain."""
     body = engine.powertrain
@@ -73,14 +73,14 @@ def add_engine(engine, crank, motion, cuts):
         apply_wrench(cuts, body, (0.0, 0.0, 0.0), rotate(turn, scale(wave, load3(engine.moment, i))))
 
 
-@kernel
+@inlined
 def order_wave(engine, crank, i):
     """Return by how much an order's amplitudes at rated speed act now."""
     growth = (crank.speed[0] / engine.rated) ** 2
     return growth * np.sin(engine.orders[i] * crank.angle[0] + engine.phase[i])
 
 
-@kernel
+@inlined
 def imposed_displacement(engine, crank):
     """Return the displacement imposed across the mounts [m] and its rate [m/s], nothing by an engine that stands."""
     if crank.speed[0] == 0.0:

@@ -85,11 +85,15 @@ def path_point(path, distance):
     return x, y, np.cos(direction), np.sin(direction), curvature
 
 
-@kernel
+@inlined
 def path_distance(path, x, y, guess):
-    """Return the distance [m] that belongs to a place x, y [m], given one within some metres of it (Newton)."""
-    if not path.curved[0]:
-        return x
+    """Return the distance [m] that belongs to a place x, y [m], given one within some metres of it."""
+    return _nearest(path, x, y, guess) if path.curved[0] else x
+
+
+@kernel
+def _nearest(path, x, y, guess):
+    """Return the distance [m] of the nearest point of a path with curves (Newton)."""
     for _ in range(8):
         px, py, tx, ty, curvature = path_point(path, guess)
         along, left = tx * (x - px) + ty * (y - py), tx * (y - py) - ty * (x - px)

@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...numerics.compiled import inlined, kernel
+from ...numerics.compiled import inlined
 from ...rui.sweeps.cells import new_cells
 from ...rui.sweeps.kinematics import MotionOffset, motion_vector, rotation
 
@@ -54,8 +54,9 @@ class NodeWorkOffset(IntEnum):
     RISE = 28  # from it to the next, m
     ALONG = 29  # distance along the path, m
     TANGENT = 30  # of the path, x and y, global axes
-    STRETCH = 32  # by which the road under the node is longer than its distances say
-    SIZE = 33
+    CLOSENESS = 32  # by which the road under the node is shorter than its distances say
+    PART = 33  # of the way from the road's sample to the next
+    SIZE = 34
 
 
 class Chain(NamedTuple):
@@ -93,9 +94,9 @@ def new_nodes():
     return new_cells(2, NodeOffset.SIZE * STRIDE, first=1)
 
 
-def new_node_work():
-    """Return room for the intermediate results of both tracks, (2, NODE_WORK STRIDE)."""
-    return new_cells(2, NodeWorkOffset.SIZE * STRIDE, first=1)
+def new_node_work(tracks=2):
+    """Return room for the intermediate results of so many tracks, (tracks, NODE_WORK STRIDE)."""
+    return new_cells(tracks, NodeWorkOffset.SIZE * STRIDE, first=1)
 
 
 @inlined
@@ -106,7 +107,7 @@ def close_chain(cells, first, count, n):
         cells[q * STRIDE + n + 1] = cells[q * STRIDE + 1]
 
 
-@kernel
+@inlined
 def see_from_hull(chain, n, nodes, motion, work):
     """Express places and velocities of a track's n nodes in hull axes, and clear the forces on them."""
     r = rotation(motion, chain.hull)
@@ -125,7 +126,7 @@ def see_from_hull(chain, n, nodes, motion, work):
     close_chain(work, NodeWorkOffset.NEAR, 6, n)
 
 
-@kernel
+@inlined
 def add_links(chain, side, work):
     """Fill the forces of a side's links and pins; returns the power that becomes heat [W] and what they store [J].
 
@@ -198,7 +199,7 @@ def add_links(chain, side, work):
     return dissipation, stored
 
 
-@kernel
+@inlined
 def move_nodes(chain, n, nodes, motion, gravity, work, dt):
     """Advance a track of n nodes by dt with symplectic Euler."""
     r = rotation(motion, chain.hull)

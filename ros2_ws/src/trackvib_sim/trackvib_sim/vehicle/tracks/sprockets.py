@@ -14,9 +14,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ...numerics.compiled import inlined, kernel
+from ...numerics.spatial import sine_cosine, vector_angle
 from ..body_tree import SIDES, drive_end, sprocket_name
 from .nodes import STRIDE, NodeWorkOffset
-from .wheels import CREEP, WheelLoadOffset, add_reaction
+from .rims import CREEP, WheelLoadOffset, add_reaction
 
 
 class Sprockets(NamedTuple):
@@ -88,7 +89,7 @@ def add_sprocket(sprockets, hub, angle, outermost, n, work, load):
         i = j
 
 
-@kernel
+@inlined
 def _touch(sprockets, hub, angle, share, i, j, work, load):
     """Add the force on a point of the link from node i to node j, at a part `share` of its length."""
     s = sprockets
@@ -100,7 +101,7 @@ def _touch(sprockets, hub, angle, share, i, j, work, load):
     rx, rz = dx / distance, dz / distance  # outwards; (rz, -rx) is the way a sprocket turns
     # off: angle from the middle between the two teeth, as rotation about +y
     gap = 2.0 * np.pi / s.teeth
-    off = np.arctan2(-dz, dx) - angle
+    off = vector_angle(dx, -dz) - angle
     off -= gap * np.floor(off / gap + 0.5)
     turn = 1.0 if off > 0.0 else -1.0
     vx, vz = _between(work, 3 * STRIDE + i, share) - hub.vx, _between(work, 5 * STRIDE + i, share) - hub.vz
@@ -185,7 +186,7 @@ def _in_tooth(s, way, distance):
 @inlined
 def _in_arc(s, off, distance):
     """Return what `_in_tooth` does for a concave seat, `off` [rad] from the middle of the gap."""
-    to_tip, cosine, sine = s.tip_radius - distance, np.cos(off), np.sin(off)
+    to_tip, (sine, cosine) = s.tip_radius - distance, sine_cosine(off)
     x, y = distance * cosine - s.arc_centre, distance * sine  # from the arc's centre, outwards and across
     reach = np.sqrt(x * x + y * y)
     flank = reach - s.arc_radius

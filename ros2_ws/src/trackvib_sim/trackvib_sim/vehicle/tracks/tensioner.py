@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...numerics.compiled import kernel
+from ...numerics.compiled import inlined
 from ..body_tree import drive_end
 
 
@@ -39,7 +39,7 @@ def build_tensioner(vehicle, travel, load):
     return Tensioner(t.stiffness, t.damping, vehicle.idlers.mass, preload, travel)
 
 
-@kernel
+@inlined
 def move_tensioner(tensioner, state, side, push, dt):
     """Advance one slide by dt under the track's `push` [N] on the idler along x."""
     preload, travel, rate = tensioner.preload[side], state.travel[side], state.rate[side]
@@ -48,7 +48,7 @@ def move_tensioner(tensioner, state, side, push, dt):
     state.travel[side] += dt * state.rate[side]
 
 
-@kernel
+@inlined
 def tensioner_energy(tensioner, state, side):
     """Return the power turned into heat [W] and the energy stored in spring and moving mass [J]."""
     preload, travel, rate = tensioner.preload[side], state.travel[side], state.rate[side]

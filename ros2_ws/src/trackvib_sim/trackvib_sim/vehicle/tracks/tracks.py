@@ -1,44 +1,21 @@
 """Both tracks with all that they touch: the records, one evaluation of their forces, one step."""
 
-from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
 
-from ...numerics.compiled import kernel
-from ...numerics.spatial import rotate
-from ...rui.sweeps.articulated import apply_wrench
-from ...rui.sweeps.kinematics import MotionOffset, motion_vector, rotation
+from ...numerics.compiled import inlined
+from ...rui.sweeps.kinematics import MotionOffset, motion_vector
 from ..body_tree import SIDES
 from ..drive.path import path_distance
-from .ground import Ground, add_ground, build_ground, find_on_path, road_height
+from .ground import Ground, build_ground, road_height
 from .layout import fit_idler, idler_load
-from .nodes import STRIDE, Chain, add_links, build_chain, move_nodes, new_node_work, new_nodes, see_from_hull
-from .sprockets import Sprockets, add_sprocket, build_sprockets
-from .tensioner import Tensioner, TensionerState, build_tensioner, move_tensioner, tensioner_energy
-from .wheels import (
-    END,
-    LOWER_RUN,
-    WheelLoadOffset,
-    Wheels,
-    add_wheel,
-    build_wheels,
-    find_link,
-    find_outermost,
-    hub_of,
-    push_body,
-)
-
-
-class TrackPart(IntEnum):
-    """Where energy is stored and dissipated in the tracks."""
-
-    LINKS = 0
-    GROUND = 1
-    RIMS = 2
-    TEETH = 3
-    TENSIONERS = 4
-
+from .nodes import Chain, build_chain, new_node_work, new_nodes
+from .one_track import TrackPart, add_track, move_track
+from .rims import Contacts, WheelLoadOffset, new_contacts
+from .sprockets import Sprockets, build_sprockets
+from .tensioner import Tensioner, TensionerState, build_tensioner
+from .wheels import LOWER_RUN, Wheels, build_wheels
 
 TRACK_PARTS = len(TrackPart)
 MESHED = 0.75  # teeth by which the outermost pin may be away from its gap; from half a tooth on it is over the next one
@@ -67,7 +44,8 @@ class TrackState(NamedTuple):
 class TrackWork(NamedTuple):
     """Room for the intermediate results of a step."""
 
-    nodes: np.ndarray  # (2, NODE_WORK STRIDE)
+    nodes: np.ndarray  # (2, NODE_WORK STRIDE), or one row for each track in its turn
+    contacts: Contacts  # of the wheels of one side
     load: np.ndarray  # (LOAD,) of one wheel
     push: np.ndarray  # (2,) of the track on the idler along the hull's x axis, N
     dissipation: np.ndarray  # (TRACK_PARTS,) W
@@ -101,10 +79,11 @@ def new_track_state(tracks):
     return TrackState(new_nodes(), np.ones(tracks.wheels.row.shape, int), np.ones(2, int), np.zeros(2), slides)
 
 
-def new_track_work():
-    """Return working room."""
+def new_track_work(tracks, kept=1):
+    """Return working room in which the nodes' results of both tracks are `kept` (2), or those of the last one (1)."""
     return TrackWork(
-        nodes=new_node_work(),
+        nodes=new_node_work(kept),
+        contacts=new_contacts(tracks.wheels.row.shape[1]),
         load=np.zeros(WheelLoadOffset.SIZE),
         push=np.zeros(2),
         dissipation=np.zeros(TRACK_PARTS),
@@ -114,109 +93,38 @@ def new_track_work():
     )
 
 
-@kernel
-def add_tracks(tracks, state, tree_state, road, path, motion, cuts, work, dt):
+@inlined
+def add_tracks(tracks, state, tree_state, road, path, motion, cuts, work, dt, audit):
     """Add the forces of both tracks to the bodies of the tree, and prepare those on their own nodes.
 
-    The shear of the ground under the shoes is advanced by dt.
+    The shear of the ground under the shoes is advanced by dt, and with `audit` heat and stored energy are booked.
     """
+    _clear(work)
+    for side in range(2):
+        add_track(tracks, state, side, tree_state, road, path, motion, cuts, work, dt, audit)
+
+
+@inlined
+def advance_tracks(tracks, state, tree_state, road, path, motion, gravity, cuts, work, dt):
+    """Add the forces of both tracks to the bodies of the tree, and advance their nodes and tensioners by dt.
+
+    Bodies act on nodes by place and speed only, so nodes need not wait for the bodies' accelerations. Moved at once,
+    the second track finds the room of the first one in the cache.
+    """
+    _clear(work)
+    for side in range(2):
+        add_track(tracks, state, side, tree_state, road, path, motion, cuts, work, dt, False)
+        move_track(tracks, state, side, motion, gravity, work, dt)
+
+
+@inlined
+def _clear(work):
     work.dissipation[:] = 0.0
     work.stored[:] = 0.0
     work.touching[0] = 0.0
-    for side in range(2):
-        nodes = work.nodes[side]
-        see_from_hull(tracks.chain, tracks.chain.links[side], state.nodes[side], motion, nodes)
-        dissipation, stored = add_links(tracks.chain, side, nodes)
-        work.dissipation[TrackPart.LINKS] += dissipation
-        work.stored[TrackPart.LINKS] += stored
-        _add_wheels(tracks, state, side, motion, cuts, work)
-        _add_sprocket(tracks, state, side, tree_state, motion, cuts, work)
-        _add_ground(tracks, state, side, road, path, work, dt)
 
 
-@kernel
-def _add_wheels(tracks, state, side, motion, cuts, work):
-    wheels, hull, n, load = tracks.wheels, tracks.chain.hull, tracks.chain.links[side], work.load
-    for k in range(wheels.row.shape[1]):
-        row, run = wheels.row[side, k], wheels.run[side, k]
-        travel, rate, link = 0.0, 0.0, state.link[side, k]
-        if run == END:
-            travel, rate = state.tensioner.travel[side], state.tensioner.rate[side]
-        hub = hub_of(motion, hull, row, travel, rate)
-        if run == END:
-            link = find_outermost(wheels.end, work.nodes[side], link, n)
-        else:
-            link = find_link(run, hub.x, work.nodes[side], link, n)
-        state.link[side, k] = link
-        load[:] = 0.0
-        add_wheel(wheels, side, k, hub, link, n, work.nodes[side], load)
-        push_body(cuts, motion, hull, row, load)
-        work.dissipation[TrackPart.RIMS] += load[WheelLoadOffset.DISSIPATION]
-        work.stored[TrackPart.RIMS] += load[WheelLoadOffset.STORED]
-        if run == END:
-            work.push[side] = load[WheelLoadOffset.FORCE]
-            dissipation, stored = tensioner_energy(tracks.tensioner, state.tensioner, side)
-            work.dissipation[TrackPart.TENSIONERS] += dissipation
-            work.stored[TrackPart.TENSIONERS] += stored
-            # the rim's force acts at the shifted hub; the slide carries its moment about the idler's own place
-            moment = (0.0, -travel * load[WheelLoadOffset.FORCE + 2], travel * load[WheelLoadOffset.FORCE + 1])
-            apply_wrench(cuts, hull, (0.0, 0.0, 0.0), rotate(rotation(motion, hull), moment))
-
-
-@kernel
-def _add_sprocket(tracks, state, side, tree_state, motion, cuts, work):
-    hull, n, load, row = tracks.chain.hull, tracks.chain.links[side], work.load, tracks.sprockets.row[side]
-    end, before = tracks.sprockets.end, state.outermost[side]
-    outermost = find_outermost(end, work.nodes[side], before, n)
-    state.outermost[side] = outermost
-    # steps of a few pins at most, where the numbers begin anew as well
-    state.passed[side] += (outermost - before + n + n // 2) % n - n // 2
-    hub, nodes, angle = hub_of(motion, hull, row, 0.0, 0.0), work.nodes[side], tree_state.hinge[row]
-    turned = np.arctan2(end * (hub.z - nodes[2 * STRIDE + outermost]), end * (nodes[outermost] - hub.x))
-    work.away[side] = (angle - turned) * tracks.sprockets.teeth / (2.0 * np.pi) - state.passed[side]
-    load[:] = 0.0
-    add_sprocket(tracks.sprockets, hub, angle, outermost, n, nodes, load)
-    push_body(cuts, motion, hull, row, load)
-    work.dissipation[TrackPart.TEETH] += load[WheelLoadOffset.DISSIPATION]
-    work.stored[TrackPart.TEETH] += load[WheelLoadOffset.STORED]
-
-
-@kernel
-def _add_ground(tracks, state, side, road, path, work, dt):
-    """Only the lower run, from the rearmost node to the foremost one, can touch the ground."""
-    n = tracks.chain.links[side]
-    begin, last = state.outermost[side], state.link[side, tracks.wheels.row.shape[1] - 1]
-    if tracks.wheels.end < 0.0:
-        begin, last = last, begin
-    end = last + 1
-    if begin < end:
-        _add_stretch(tracks, state, side, road, path, begin, end, work, dt)
-    else:
-        _add_stretch(tracks, state, side, road, path, begin, n + 1, work, dt)
-        _add_stretch(tracks, state, side, road, path, 1, end, work, dt)
-
-
-@kernel
-def _add_stretch(tracks, state, side, road, path, begin, end, work, dt):
-    nodes, forces = state.nodes[side], work.nodes[side]
-    find_on_path(path, nodes, begin, end, forces)
-    dissipation, stored, touching = add_ground(
-        tracks.ground, nodes, road.height[side], road.first, road.spacing, begin, end, forces, dt
-    )
-    work.dissipation[TrackPart.GROUND] += dissipation
-    work.stored[TrackPart.GROUND] += stored
-    work.touching[0] += touching
-
-
-@kernel
-def move_tracks(tracks, state, motion, gravity, work, dt):
-    """Advance nodes and tensioners by dt."""
-    for side in range(2):
-        move_nodes(tracks.chain, tracks.chain.links[side], state.nodes[side], motion, gravity, work.nodes[side], dt)
-        move_tensioner(tracks.tensioner, state.tensioner, side, work.push[side], dt)
-
-
-@kernel
+@inlined
 def wheel_below_road(tracks, road, path, motion):
     """Return whether the hub of any road wheel lies below the road, where its links know no way out."""
     for side in range(2):
@@ -228,7 +136,7 @@ def wheel_below_road(tracks, road, path, motion):
     return False
 
 
-@kernel
+@inlined
 def track_skips(work):
     """Return whether a pin has left its gap for another."""
     return abs(work.away[0]) > MESHED or abs(work.away[1]) > MESHED

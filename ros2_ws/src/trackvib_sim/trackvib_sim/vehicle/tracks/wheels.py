@@ -2,24 +2,23 @@
 
 A wheel touches a link where the foot of the perpendicular from its centre falls on it, or a node where the foot falls
 beyond the end of one link and before the beginning of the next. As the wheel rolls that passes on from link to link
-without a step, and with it comes the polygon effect. The rim's rubber is a radial spring and damper; friction,
-regularised by a small creep speed, turns the wheel with the track; guide horns hold the shoes sideways.
+without a step, and with it comes the polygon effect. What a contact does is in `rims`.
 """
 
-from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
 
 from ...numerics.compiled import inlined, kernel
-from ...numerics.spatial import cross, dot, rotate, subtract, vector
+from ...numerics.spatial import dot, rotate, rotate_back, subtract, vector
 from ...rui.sweeps.articulated import apply_wrench
-from ...rui.sweeps.kinematics import MotionOffset, body_axes, motion_vector, rotation
+from ...rui.sweeps.kinematics import MotionOffset, motion_vector, rotation
 from ..body_tree import SIDES, drive_end, idler_name, roller_name, wheel_name
-from .nodes import STRIDE, NodeWorkOffset
+from .nodes import STRIDE
+from .rims import WheelLoadOffset, close_list, list_contact
 
 LOWER_RUN, UPPER_RUN, END = 1.0, -1.0, 0.0  # sign of x along the chain where the wheel touches it; 0: an idler's end
-CREEP = 0.25  # m/s, slip at which friction has 71 % of its limit; less is stiff against a shoe in steps of 1e-4 s
+HALF_LINK = 0.6  # of the pitch: half the longest link that a run may have
 MOST_MOVES = (
     4  # links by which a wheel's link may change in one step; wheels that lost the track must not search for ever
 )
@@ -36,6 +35,7 @@ class Wheels(NamedTuple):
     run: np.ndarray  # one of `LOWER_RUN`, `UPPER_RUN`, `END`
     window: np.ndarray  # links on either side of the wheel's own that it may touch
     radius: np.ndarray  # of the pin line, m
+    reach: np.ndarray  # square of the distance from the hub within which a touched link has one of its nodes, m^2
     stiffness: np.ndarray  # N/m
     damping: np.ndarray  # N s/m
     friction: np.ndarray
@@ -43,15 +43,12 @@ class Wheels(NamedTuple):
     guide_damping: np.ndarray  # N s/m
 
 
-class Rim(NamedTuple):
-    """One wheel's part of `Wheels`."""
+class HullFrame(NamedTuple):
+    """The hull as wheels are seen from it."""
 
-    radius: float
-    stiffness: float
-    damping: float
-    friction: float
-    guide_stiffness: float
-    guide_damping: float
+    axes: tuple  # (9,) hull axes -> global axes
+    origin: tuple  # (3,) m
+    turn: tuple  # (3,) angular velocity, hull axes, rad/s
 
 
 class Hub(NamedTuple):
@@ -66,16 +63,6 @@ class Hub(NamedTuple):
     spin: float  # rad/s about the axle, positive forward
     roll: float  # rad/s of the hull
     yaw: float
-
-
-class WheelLoadOffset(IntEnum):
-    """What a track does to a wheel, hull axes."""
-
-    FORCE = 0  # N
-    MOMENT = 3  # about the hub, N m
-    DISSIPATION = 6  # W
-    STORED = 7  # energy in the contact, J
-    SIZE = 8
 
 
 def build_wheels(vehicle, rows):
@@ -104,6 +91,7 @@ def build_wheels(vehicle, rows):
         # an idler is wrapped by up to half its circumference
         window=column(lambda run, radius, rim: 3 if run else int(np.ceil(0.5 * np.pi * radius / pitch)) + 2),
         radius=column(lambda run, radius, rim: radius),
+        reach=column(lambda run, radius, rim: radius**2 + (HALF_LINK * pitch) ** 2),
         stiffness=column(lambda run, radius, rim: rim.radial_stiffness),
         damping=column(lambda run, radius, rim: rim.radial_damping),
         friction=column(lambda run, radius, rim: rim.friction),
@@ -113,15 +101,18 @@ def build_wheels(vehicle, rows):
 
 
 @inlined
-def hub_of(motion, hull, row, travel, rate):
+def hull_frame(motion, hull):
+    """Return the `HullFrame`."""
+    axes = rotation(motion, hull)
+    turn = rotate_back(axes, motion_vector(motion, MotionOffset.ANGULAR_VELOCITY, hull))
+    return HullFrame(axes, motion_vector(motion, MotionOffset.ORIGIN, hull), turn)
+
+
+@inlined
+def hub_of(motion, frame, row, travel, rate):
     """Return the `Hub` of a wheel that is shifted along the hull's x axis by `travel` [m], at a `rate` [m/s]."""
-    place = body_axes(
-        motion,
-        hull,
-        subtract(motion_vector(motion, MotionOffset.ORIGIN, row), motion_vector(motion, MotionOffset.ORIGIN, hull)),
-    )
-    velocity = body_axes(motion, hull, motion_vector(motion, MotionOffset.VELOCITY, row))
-    turn = body_axes(motion, hull, motion_vector(motion, MotionOffset.ANGULAR_VELOCITY, hull))
+    place = rotate_back(frame.axes, subtract(motion_vector(motion, MotionOffset.ORIGIN, row), frame.origin))
+    velocity, turn = rotate_back(frame.axes, motion_vector(motion, MotionOffset.VELOCITY, row)), frame.turn
     spin = dot(
         motion_vector(motion, MotionOffset.ANGULAR_VELOCITY, row), motion_vector(motion, MotionOffset.HINGE_AXIS, row)
     )
@@ -129,7 +120,7 @@ def hub_of(motion, hull, row, travel, rate):
     return Hub(place[0] + travel, place[1], place[2], shifted[0], shifted[1], shifted[2], spin, turn[0], turn[2])
 
 
-@kernel
+@inlined
 def find_link(run, x, work, i, n):
     """Return the link of a run that a wheel at x touches, beginning from the one it touched last."""
     for _ in range(MOST_MOVES):
@@ -155,89 +146,48 @@ def find_outermost(end, work, i, n):
     return i
 
 
-@kernel
-def add_wheel(wheels, side, k, hub, link, n, work, load):
-    """Add one wheel's contact forces to the nodes around its link, and their reactions to `load` (LOAD,).
+@inlined
+def list_contacts(wheels, side, k, hub, link, n, work, contacts, first):
+    """List the contacts of one wheel with the links around its own, from number `first` on; returns the next number.
 
     Where the chain bends round the wheel, the feet on two links can lie inside both of them: their common pin then
     counts once less. Where it bends away, a foot can lie in neither: the pin counts by itself. So the force is that
     of one rim, and steady.
     """
-    rim = Rim(
-        wheels.radius[side, k],
-        wheels.stiffness[side, k],
-        wheels.damping[side, k],
-        wheels.friction[side, k],
-        wheels.guide_stiffness[side, k],
-        wheels.guide_damping[side, k],
-    )
-    window, inner = wheels.window[side, k], rim.radius * rim.radius
-    i = link - window
+    window, reach = wheels.window[side, k], wheels.reach[side, k]
+    inner = wheels.radius[side, k] * wheels.radius[side, k]
+    i, end = link - window, first
     i = i + n if i < 1 else i
     inside, beyond = False, False  # whether the foot lay inside the link before, or beyond its end
+    ax, az = work[i] - hub.x, work[2 * STRIDE + i] - hub.z
+    behind = ax * ax + az * az
     for _ in range(2 * window + 1):
         j = i + 1 if i < n else 1
-        ax, az = work[i] - hub.x, work[2 * STRIDE + i] - hub.z
-        ux, uz = work[i + 1] - work[i], work[2 * STRIDE + i + 1] - work[2 * STRIDE + i]
-        along, square = -(ax * ux + az * uz), ux * ux + uz * uz
-        across = ax * uz - az * ux
-        within = 0.0 <= along < square
-        if ax * ax + az * az < inner and ((beyond and along < 0.0) or (inside and within)):
-            _press(rim, hub, 0.0, -1.0 if inside else 1.0, i, j, work, load)
-        if within and across * across < inner * square:
-            _press(rim, hub, along / square, 1.0, i, j, work, load)
-        inside, beyond = within, along >= square
-        i = j
-
-
-@kernel
-def _press(rim, hub, share, weight, i, j, work, load):
-    """Add `weight` times the contact of a rim with the link from node i to node j, at a part `share` of its length."""
-    rest = 1.0 - share
-    dx = rest * work[i] + share * work[j] - hub.x
-    sideways = rest * work[STRIDE + i] + share * work[STRIDE + j] - hub.y
-    dz = rest * work[2 * STRIDE + i] + share * work[2 * STRIDE + j] - hub.z
-    vx = rest * work[3 * STRIDE + i] + share * work[3 * STRIDE + j] - hub.vx
-    vy = rest * work[4 * STRIDE + i] + share * work[4 * STRIDE + j] - hub.vy - hub.yaw * dx + hub.roll * dz
-    vz = rest * work[5 * STRIDE + i] + share * work[5 * STRIDE + j] - hub.vz
-    distance = np.sqrt(dx * dx + dz * dz)
-    nx, nz = dx / distance, dz / distance
-    depth, leaving = rim.radius - distance, vx * nx + vz * nz
-    on = max(weight, 0.0)  # the pin that counts less takes no damping off
-    normal = max(0.0, rim.stiffness * depth - on * rim.damping * leaving)
-    # the rim moves along (nz, -nx) when the wheel rolls forward
-    slip = vx * nz - vz * nx - hub.spin * distance
-    drag = on * rim.friction * normal * slip / np.sqrt(slip * slip + CREEP * CREEP)
-    guide = rim.guide_stiffness * sideways + on * rim.guide_damping * vy
-    force = (weight * (normal * nx - drag * nz), -weight * guide, weight * (normal * nz + drag * nx))
-    for axis in range(3):
-        work[(NodeWorkOffset.CONTACT + axis) * STRIDE + i] += rest * force[axis]
-        work[(NodeWorkOffset.CONTACT + axis) * STRIDE + j] += share * force[axis]
-    add_reaction(load, (dx, sideways, dz), force)
-    load[WheelLoadOffset.DISSIPATION] += weight * (
-        leaving * (rim.stiffness * depth - normal) + drag * slip + on * rim.guide_damping * vy * vy
-    )
-    load[WheelLoadOffset.STORED] += (
-        weight * 0.5 * (rim.stiffness * depth * depth + rim.guide_stiffness * sideways * sideways)
-    )
+        bx, bz = work[i + 1] - hub.x, work[2 * STRIDE + i + 1] - hub.z
+        ahead = bx * bx + bz * bz
+        if behind < reach or ahead < reach:
+            ux, uz = work[i + 1] - work[i], work[2 * STRIDE + i + 1] - work[2 * STRIDE + i]
+            along, square = -(ax * ux + az * uz), ux * ux + uz * uz
+            across = ax * uz - az * ux
+            within = 0.0 <= along < square
+            if behind < inner and ((beyond and along < 0.0) or (inside and within)):
+                list_contact(contacts, end, hub, 0.0, -1.0 if inside else 1.0, i, j, work)
+                end += 1
+            if within and across * across < inner * square:
+                list_contact(contacts, end, hub, along / square, 1.0, i, j, work)
+                end += 1
+            inside, beyond = within, along >= square
+        i, ax, az, behind = j, bx, bz, ahead
+    close_list(contacts, k, first, end, wheels, side)
+    return end
 
 
 @inlined
-def add_reaction(load, lever, force):
-    """Add to `load` what a force [N] on a node does to the wheel, `lever` [m] being the node's place from the hub."""
-    moment = cross(lever, force)
-    for axis in range(3):
-        load[WheelLoadOffset.FORCE + axis] -= force[axis]
-        load[WheelLoadOffset.MOMENT + axis] -= moment[axis]
-
-
-@kernel
-def push_body(cuts, motion, hull, row, load):
+def push_body(cuts, frame, row, load):
     """Apply `load` to a body, about its own origin."""
-    turn = rotation(motion, hull)
     apply_wrench(
         cuts,
         row,
-        rotate(turn, vector(load[WheelLoadOffset.FORCE :])),
-        rotate(turn, vector(load[WheelLoadOffset.MOMENT :])),
+        rotate(frame.axes, vector(load[WheelLoadOffset.FORCE :])),
+        rotate(frame.axes, vector(load[WheelLoadOffset.MOMENT :])),
     )
