@@ -3,7 +3,8 @@
 A wheel touches a link where the foot of the perpendicular from its centre falls on it, or a node where the foot falls
 beyond the end of one link and before the beginning of the next. As the wheel rolls that passes on from link to link
 without a step, and with it comes the polygon effect. The rim's rubber is a radial spring and damper; friction,
-regularised by a small creep speed, turns the wheel with the track; guide horns hold the shoes sideways.
+regularised by a small creep speed, turns the wheel with the track; guide horns hold the shoes sideways, those that do
+not yet touch the rim as well.
 """
 
 from enum import IntEnum
@@ -16,6 +17,7 @@ from ...numerics.spatial import cross, dot, rotate, subtract, vector
 from ...rui.sweeps.articulated import apply_wrench
 from ...rui.sweeps.kinematics import MotionOffset, body_axes, motion_vector, rotation
 from ..body_tree import SIDES, drive_end, idler_name, roller_name, wheel_name
+from .guides import REACH, hold
 from .nodes import STRIDE, NodeWorkOffset
 
 LOWER_RUN, UPPER_RUN, END = 1.0, -1.0, 0.0  # sign of x along the chain where the wheel touches it; 0: an idler's end
@@ -171,7 +173,7 @@ def add_wheel(wheels, side, k, hub, link, n, work, load):
         wheels.guide_stiffness[side, k],
         wheels.guide_damping[side, k],
     )
-    window, inner = wheels.window[side, k], rim.radius * rim.radius
+    window, reached = wheels.window[side, k], (rim.radius + REACH) ** 2
     i = link - window
     i = i + n if i < 1 else i
     inside, beyond = False, False  # whether the foot lay inside the link before, or beyond its end
@@ -182,9 +184,9 @@ def add_wheel(wheels, side, k, hub, link, n, work, load):
         along, square = -(ax * ux + az * uz), ux * ux + uz * uz
         across = ax * uz - az * ux
         within = 0.0 <= along < square
-        if ax * ax + az * az < inner and ((beyond and along < 0.0) or (inside and within)):
+        if ax * ax + az * az < reached and ((beyond and along < 0.0) or (inside and within)):
             _press(rim, hub, 0.0, -1.0 if inside else 1.0, i, j, work, load)
-        if within and across * across < inner * square:
+        if within and across * across < reached * square:
             _press(rim, hub, along / square, 1.0, i, j, work, load)
         inside, beyond = within, along >= square
         i = j
@@ -204,22 +206,20 @@ def _press(rim, hub, share, weight, i, j, work, load):
     nx, nz = dx / distance, dz / distance
     depth, leaving = rim.radius - distance, vx * nx + vz * nz
     on = max(weight, 0.0)  # the pin that counts less takes no damping off
-    normal = max(0.0, rim.stiffness * depth - on * rim.damping * leaving)
+    spring = rim.stiffness * max(depth, 0.0)
+    normal = max(0.0, spring - on * rim.damping * leaving) if depth > 0.0 else 0.0
     # the rim moves along (nz, -nx) when the wheel rolls forward
     slip = vx * nz - vz * nx - hub.spin * distance
     drag = on * rim.friction * normal * slip / np.sqrt(slip * slip + CREEP * CREEP)
-    guide = rim.guide_stiffness * sideways + on * rim.guide_damping * vy
-    force = (weight * (normal * nx - drag * nz), -weight * guide, weight * (normal * nz + drag * nx))
+    outwards, guide, heat, stored = hold(rim.guide_stiffness, on * rim.guide_damping, REACH, depth, sideways, vy)
+    push = normal + outwards
+    force = (weight * (push * nx - drag * nz), weight * guide, weight * (push * nz + drag * nx))
     for axis in range(3):
         work[(NodeWorkOffset.CONTACT + axis) * STRIDE + i] += rest * force[axis]
         work[(NodeWorkOffset.CONTACT + axis) * STRIDE + j] += share * force[axis]
     add_reaction(load, (dx, sideways, dz), force)
-    load[WheelLoadOffset.DISSIPATION] += weight * (
-        leaving * (rim.stiffness * depth - normal) + drag * slip + on * rim.guide_damping * vy * vy
-    )
-    load[WheelLoadOffset.STORED] += (
-        weight * 0.5 * (rim.stiffness * depth * depth + rim.guide_stiffness * sideways * sideways)
-    )
+    load[WheelLoadOffset.DISSIPATION] += weight * (leaving * (spring - normal) + drag * slip + heat)
+    load[WheelLoadOffset.STORED] += weight * (0.5 * spring * depth + stored)
 
 
 @inlined
