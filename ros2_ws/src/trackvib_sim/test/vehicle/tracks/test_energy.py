@@ -91,11 +91,14 @@ def test_drive_work_is_dissipated_or_stored(request, rolling, audited, road_clas
 
 
 @pytest.mark.slow(reason="half a second of drive in single steps")
-@pytest.mark.parametrize("build", OTHERS.values(), ids=OTHERS)
-def test_drive_work_of_any_vehicle_is_dissipated_or_stored(rolling, audited, level_road, build):
-    """To 1 %, wherever the sprockets stand, with or without friction of teeth, rollers, turret, seats and coils."""
-    vehicle = build()
-    system, state = rolling(physics=recommended_rate(vehicle), vehicle=vehicle)
+@pytest.mark.parametrize(("name", "speed"), [*((name, 10.0) for name in OTHERS), ("m113", 9.98), ("m113", 9.99)])
+def test_drive_work_of_any_vehicle_is_dissipated_or_stored(rolling, audited, level_road, name, speed):
+    """To 1 %, wherever the sprockets stand, with or without friction of teeth, rollers, turret, seats and coils.
+
+    And at speeds about 10 m/s: their tracks come to run otherwise from the least difference.
+    """
+    vehicle = OTHERS[name]()
+    system, state = rolling(speed, recommended_rate(vehicle), vehicle)
     dissipation, given, held = audited(system, state, level_road, round(0.5 / system.dt))
     drive, lost = trapezoid(given[:, Source.DRIVER], dx=system.dt), trapezoid(dissipation, dx=system.dt, axis=0)
     assert drive > 5e3

@@ -1,7 +1,7 @@
 """Rims on links: the contacts of all wheels of a side, first listed, then evaluated side by side.
 
 The rim's rubber is a radial spring and damper; friction, regularised by a small creep speed, turns the wheel with the
-track; guide horns hold the shoes sideways. A contact by itself is a chain of roots and quotients that wait for each
+track; guide horns hold the shoes sideways, those that do not yet touch the rim as well. A contact by itself is a chain of roots and quotients that wait for each
 other. So each wheel only lists where it touches, and one loop over the list makes vector instructions of them.
 """
 
@@ -13,6 +13,7 @@ import numpy as np
 from ...numerics.compiled import inlined
 from ...numerics.spatial import cross
 from ...rui.sweeps.cells import new_cells
+from .guides import REACH, hold
 from .nodes import STRIDE, NodeWorkOffset
 
 CREEP = 0.25  # m/s, slip at which friction has 71 % of its limit; less is stiff against a shoe in steps of 1e-4 s
@@ -112,20 +113,21 @@ def press_contacts(contacts, count):
         nx, nz = dx / distance, dz / distance
         depth, leaving = cells[ContactOffset.RADIUS * ROOM + c] - distance, vx * nx + vz * nz
         on = max(weight, 0.0)  # the pin that counts less takes no damping off
-        normal = max(0.0, stiffness * depth - on * damping * leaving)
+        spring = stiffness * max(depth, 0.0)
+        normal = max(0.0, spring - on * damping * leaving) if depth > 0.0 else 0.0
         # the rim moves along (nz, -nx) when the wheel rolls forward
         slip = vx * nz - vz * nx - cells[ContactOffset.SPIN * ROOM + c] * distance
         limit = on * cells[ContactOffset.FRICTION * ROOM + c] * normal
         drag = limit * slip / np.sqrt(slip * slip + CREEP * CREEP)
         guide_stiffness = cells[ContactOffset.GUIDE_STIFFNESS * ROOM + c]
         guide_damping = on * cells[ContactOffset.GUIDE_DAMPING * ROOM + c]
-        cells[ContactOffset.FORCE * ROOM + c] = weight * (normal * nx - drag * nz)
-        cells[(ContactOffset.FORCE + 1) * ROOM + c] = -weight * (guide_stiffness * sideways + guide_damping * vy)
-        cells[(ContactOffset.FORCE + 2) * ROOM + c] = weight * (normal * nz + drag * nx)
-        heat = leaving * (stiffness * depth - normal) + drag * slip + guide_damping * vy * vy
-        cells[ContactOffset.DISSIPATION * ROOM + c] = weight * heat
-        stored = stiffness * depth * depth + guide_stiffness * sideways * sideways
-        cells[ContactOffset.STORED * ROOM + c] = weight * 0.5 * stored
+        outwards, guide, heat, stored = hold(guide_stiffness, guide_damping, REACH, depth, sideways, vy)
+        push = normal + outwards
+        cells[ContactOffset.FORCE * ROOM + c] = weight * (push * nx - drag * nz)
+        cells[(ContactOffset.FORCE + 1) * ROOM + c] = weight * guide
+        cells[(ContactOffset.FORCE + 2) * ROOM + c] = weight * (push * nz + drag * nx)
+        cells[ContactOffset.DISSIPATION * ROOM + c] = weight * (leaving * (spring - normal) + drag * slip + heat)
+        cells[ContactOffset.STORED * ROOM + c] = weight * (0.5 * spring * depth + stored)
 
 
 @inlined

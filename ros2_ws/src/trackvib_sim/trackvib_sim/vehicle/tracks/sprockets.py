@@ -16,6 +16,7 @@ import numpy as np
 from ...numerics.compiled import inlined, kernel
 from ...numerics.spatial import sine_cosine, vector_angle
 from ..body_tree import SIDES, drive_end, sprocket_name
+from .guides import hold
 from .nodes import STRIDE, NodeWorkOffset
 from .rims import CREEP, WheelLoadOffset, add_reaction
 
@@ -114,19 +115,23 @@ def _touch(sprockets, hub, angle, share, i, j, work, load):
         radial, tangential = _push(s, s.pitch_radius - distance, 0.0, -1.0, along, outwards, load)
         depth, across, outward = _in_tooth(s, abs(off) * distance, distance)
         # the way along the circumference grows with distance as well
-        more = _push(s, depth, turn * across, outward + abs(off) * across, along, outwards, load)
-        radial, tangential = radial + more[0], tangential + more[1]
-    if radial != 0.0 or tangential != 0.0:
-        sideways = _between(work, STRIDE + i, share) - hub.y
-        vy = _between(work, 4 * STRIDE + i, share) - hub.vy - hub.yaw * dx + hub.roll * dz
-        guide = s.guide_stiffness * sideways + s.guide_damping * vy
-        load[WheelLoadOffset.DISSIPATION] += s.guide_damping * vy * vy
-        load[WheelLoadOffset.STORED] += 0.5 * s.guide_stiffness * sideways * sideways
-        force = (radial * rx + tangential * rz, -guide, radial * rz - tangential * rx)
-        for axis in range(3):
-            work[(NodeWorkOffset.CONTACT + axis) * STRIDE + i] += (1.0 - share) * force[axis]
-            work[(NodeWorkOffset.CONTACT + axis) * STRIDE + j] += share * force[axis]
-        add_reaction(load, (dx, sideways, dz), force)
+        flank = _push(s, depth, turn * across, outward + abs(off) * across, along, outwards, load)
+        radial, tangential = radial + flank[0], tangential + flank[1]
+    # guides reach as far as the teeth, and hold wholly at the pitch circle
+    sideways = _between(work, STRIDE + i, share) - hub.y
+    vy = _between(work, 4 * STRIDE + i, share) - hub.vy - hub.yaw * dx + hub.roll * dz
+    height = s.tip_radius - s.pitch_radius
+    more, guide, heat, stored = hold(
+        s.guide_stiffness, s.guide_damping, height, s.pitch_radius - distance, sideways, vy
+    )
+    radial += more
+    load[WheelLoadOffset.DISSIPATION] += heat
+    load[WheelLoadOffset.STORED] += stored
+    force = (radial * rx + tangential * rz, guide, radial * rz - tangential * rx)
+    for axis in range(3):
+        work[(NodeWorkOffset.CONTACT + axis) * STRIDE + i] += (1.0 - share) * force[axis]
+        work[(NodeWorkOffset.CONTACT + axis) * STRIDE + j] += share * force[axis]
+    add_reaction(load, (dx, sideways, dz), force)
 
 
 @inlined

@@ -14,6 +14,7 @@ from ...numerics.spatial import dot, rotate, rotate_back, subtract, vector
 from ...rui.sweeps.articulated import apply_wrench
 from ...rui.sweeps.kinematics import MotionOffset, motion_vector, rotation
 from ..body_tree import SIDES, drive_end, idler_name, roller_name, wheel_name
+from .guides import REACH
 from .nodes import STRIDE
 from .rims import WheelLoadOffset, close_list, list_contact
 
@@ -35,7 +36,7 @@ class Wheels(NamedTuple):
     run: np.ndarray  # one of `LOWER_RUN`, `UPPER_RUN`, `END`
     window: np.ndarray  # links on either side of the wheel's own that it may touch
     radius: np.ndarray  # of the pin line, m
-    reach: np.ndarray  # square of the distance from the hub within which a touched link has one of its nodes, m^2
+    reach: np.ndarray  # square of the distance from the hub within which a held link has one of its nodes, m^2
     stiffness: np.ndarray  # N/m
     damping: np.ndarray  # N s/m
     friction: np.ndarray
@@ -91,7 +92,7 @@ def build_wheels(vehicle, rows):
         # an idler is wrapped by up to half its circumference
         window=column(lambda run, radius, rim: 3 if run else int(np.ceil(0.5 * np.pi * radius / pitch)) + 2),
         radius=column(lambda run, radius, rim: radius),
-        reach=column(lambda run, radius, rim: radius**2 + (HALF_LINK * pitch) ** 2),
+        reach=column(lambda run, radius, rim: (radius + REACH) ** 2 + (HALF_LINK * pitch) ** 2),
         stiffness=column(lambda run, radius, rim: rim.radial_stiffness),
         damping=column(lambda run, radius, rim: rim.radial_damping),
         friction=column(lambda run, radius, rim: rim.friction),
@@ -148,14 +149,14 @@ def find_outermost(end, work, i, n):
 
 @inlined
 def list_contacts(wheels, side, k, hub, link, n, work, contacts, first):
-    """List the contacts of one wheel with the links around its own, from number `first` on; returns the next number.
+    """List what one wheel touches, or its guides hold, of the links around its own, from number `first` on; returns the next.
 
     Where the chain bends round the wheel, the feet on two links can lie inside both of them: their common pin then
     counts once less. Where it bends away, a foot can lie in neither: the pin counts by itself. So the force is that
     of one rim, and steady.
     """
     window, reach = wheels.window[side, k], wheels.reach[side, k]
-    inner = wheels.radius[side, k] * wheels.radius[side, k]
+    held = (wheels.radius[side, k] + REACH) ** 2
     i, end = link - window, first
     i = i + n if i < 1 else i
     inside, beyond = False, False  # whether the foot lay inside the link before, or beyond its end
@@ -170,10 +171,10 @@ def list_contacts(wheels, side, k, hub, link, n, work, contacts, first):
             along, square = -(ax * ux + az * uz), ux * ux + uz * uz
             across = ax * uz - az * ux
             within = 0.0 <= along < square
-            if behind < inner and ((beyond and along < 0.0) or (inside and within)):
+            if behind < held and ((beyond and along < 0.0) or (inside and within)):
                 list_contact(contacts, end, hub, 0.0, -1.0 if inside else 1.0, i, j, work)
                 end += 1
-            if within and across * across < inner * square:
+            if within and across * across < held * square:
                 list_contact(contacts, end, hub, along / square, 1.0, i, j, work)
                 end += 1
             inside, beyond = within, along >= square
