@@ -9,7 +9,7 @@ from trackvib_sim.rui.sweeps.kinematics import new_motion, update_motion
 from trackvib_sim.simulation.open_loop import run_open_loop
 from trackvib_sim.simulation.running_gear import RUNS, RunningGear
 from trackvib_sim.vehicle.body_tree import GRAVITY, whole_mass
-from trackvib_sim.vehicle.tracks.tracks import TrackPart, add_tracks, new_track_work
+from trackvib_sim.vehicle.tracks.tracks import add_tracks, new_track_work
 
 pytestmark = pytest.mark.analytic
 
@@ -38,19 +38,20 @@ def standing(vehicle, simulation, level):
 
 @pytest.fixture(scope="module")
 def rolling(vehicle, simulation, level, drive):
-    """The means of the numbers at a steady speed on level ground, among them the heat of the teeth [W]."""
+    """The means of the numbers at a steady speed on level ground, among them the heat of the tracks [W]."""
     rolls = simulation(speed=SPEED, engine_speed=ENGINE)
     gear, rows = RunningGear(vehicle, rolls), []
     names = [(kind.name, name) for kind in gear.kinds for name in kind.names] + ["heat", "turn"]
     run_open_loop(rolls, level, SETTLING)
-    tracks, work = rolls.system.tracks, new_track_work()
+    tracks, path, dt = rolls.system.tracks, rolls.state.drive.path, rolls.system.dt
+    work = new_track_work(tracks)
     for _ in drive(rolls, level, STEADY):
         motion, cuts = new_motion(rolls.system.tree), new_cuts(rolls.system.tree)
         update_motion(rolls.system.tree, rolls.state.tree, motion)
         state = deepcopy(rolls.state.tracks)
-        add_tracks(tracks, state, rolls.state.tree, rolls.road_at_hand, rolls.state.drive.path, motion, cuts, work, 0.0)
+        add_tracks(tracks, state, rolls.state.tree, rolls.road_at_hand, path, motion, cuts, work, dt, True)
         turn = rolls.state.tree.hinge_rate[tracks.sprockets.row].mean()
-        rows.append([*np.concatenate(gear.read()), work.dissipation[TrackPart.TEETH], turn])
+        rows.append([*np.concatenate(gear.read()), work.dissipation.sum(), turn])
     return dict(zip(names, np.mean(rows, axis=0).tolist(), strict=True))
 
 
@@ -83,11 +84,21 @@ def test_tension_at_rest_is_the_pretension(vehicle, standing):
             assert standing["track_tension"][f"{side}_{run}"] == pytest.approx(pretension, rel=0.15)
 
 
-def test_torque_balances_the_runs_at_the_sprockets(rolling):
-    """At a steady speed its power pulls the rear runs against the upper ones and heats the teeth, to 5 %."""
-    pull = sum(rolling["track_tension", f"{side}_rear"] - rolling["track_tension", f"{side}_upper"] for side in BOTH)
+def test_power_at_the_sprockets_is_the_heat_of_the_tracks(rolling):
+    """At a steady speed on level ground, to 5 %: what the hull and its suspension take is less.
+
+    A balance of torque against the pull of rear and upper runs does not hold: between teeth of a pitch other than its
+    own a track is squeezed, works as it bends, and its runs leave the sprocket at different levers.
+    """
     torque = sum(rolling["sprocket_torque", side] for side in BOTH)
-    assert torque * rolling["turn"] == pytest.approx(pull * SPEED + rolling["heat"], rel=0.05)
+    assert torque * rolling["turn"] == pytest.approx(rolling["heat"], rel=0.05)
+
+
+def test_idlers_turn_freely(rolling):
+    """So the runs on both sides of one pull alike, to 5 %, but for what its rim loses."""
+    for side in BOTH:
+        front, upper = (rolling["track_tension", f"{side}_{run}"] for run in ("front", "upper"))
+        assert front == pytest.approx(upper, rel=0.05)
 
 
 def test_steady_speed_needs_no_force_of_the_ground(vehicle, rolling):

@@ -13,7 +13,7 @@ from ..vehicle.system import new_state, new_work
 from ..vehicle.tracks.initial import assemble_tracks
 from ..vehicle.tracks.nodes import STRIDE, NodeOffset
 from .sensing import points_of
-from .step import REASONS, Status, advance, new_sample
+from .step import REASONS, Status, control_periods, new_sample, one_row
 
 DURATION = 3.0  # s; the slowest motion, of the driver's speed control, has a time constant of 0.9 s
 CALMED = 2.0  # s of it, in which a standing vehicle's tracks are brought to rest
@@ -49,12 +49,13 @@ def run_in(vehicle, system, settings):
     road = Road(int((min(way, 0.0) - _AROUND) / _SPACING), _SPACING, np.zeros((2, samples)))
     points = points_of((), (), {}, settings.rates)
     demanded = np.full(system.mounts.coils, settings.passive_current)
-    sample = new_sample(points, 0, system.mounts)
+    samples = new_sample(points, 0, system.mounts), new_sample(points, 0, system.mounts)
     parts = ((calmed(system), CALMED), (system, DURATION - CALMED)) if speed == 0.0 else ((system, DURATION),)
     status = Status.GOOD
     for now, duration in parts:
         if status == Status.GOOD:
-            status = advance(now, state, road, demanded, round(duration / system.dt), work, points, sample)
+            steps, rows = round(duration / now.dt), one_row(samples[0])
+            status = next(control_periods(now, state, road, demanded, steps, work, points, *samples, rows))
     if status != Status.GOOD:
         raise CannotRoll(
             f"the vehicle cannot roll at {speed:g} m/s on a level road: {REASONS[status]}; check the vehicle file"

@@ -10,12 +10,13 @@ import numpy as np
 from ..numerics.units import RPM
 from ..rui.sweeps.articulated import CutOffset, new_cuts
 from ..rui.sweeps.cells import columns, copy_cells
-from ..rui.sweeps.kinematics import new_motion, update_motion
+from ..rui.sweeps.kinematics import MotionOffset, body_axes, new_motion, update_motion
 from ..vehicle.body_tree import SIDE_NAMES, SIDES, wheel_name
 from ..vehicle.parameters import Vehicle
 from ..vehicle.suspension import shock_force
 from ..vehicle.tracks.nodes import STRIDE, NodeWorkOffset
 from ..vehicle.tracks.tracks import add_tracks, new_track_work
+from ..vehicle.tracks.wheels import END, LOWER_RUN, UPPER_RUN
 from .simulation import Simulation
 
 RUNS = ("lower", "front", "upper", "rear")
@@ -62,7 +63,8 @@ class RunningGear:
 
     def __init__(self, vehicle: Vehicle, simulation: Simulation):
         self._simulation, tree = simulation, simulation.system.tree
-        self._motion, self._cuts, self._work = new_motion(tree), new_cuts(tree), new_track_work()
+        self._motion, self._cuts = new_motion(tree), new_cuts(tree)
+        self._work = new_track_work(simulation.system.tracks, kept=2)
         stations = range(vehicle.swing_arms.stations)
         wheels = tuple(wheel_name(side, station) for side in SIDES for station in stations)
         sides = tuple(SIDE_NAMES.values())
@@ -74,7 +76,12 @@ class RunningGear:
             MeasuredKind("damper_force", "N", "of the shock absorber at the road wheel, against compression", wheels),
             MeasuredKind("wheel_force", "N", "of the track on the road wheel, upwards", wheels),
             MeasuredKind("ground_force", "N", "of the ground on the track, axes of odom", by_axis),
-            MeasuredKind("track_tension", "N", "mean over the links of the run that touch no wheel", by_run),
+            MeasuredKind(
+                "track_tension",
+                "N",
+                "mean over the links of the run, those half-way between two wheels counting most",
+                by_run,
+            ),
             MeasuredKind("sprocket_torque", "N m", "of the drive on the sprocket", sides),
             MeasuredKind("engine_speed", "r/min", "of the crankshaft", ("engine",)),
         )
@@ -87,7 +94,7 @@ class RunningGear:
         self._cuts.cells[:] = 0.0
         # no time passes: the shear of the ground stays as it is
         road, path = self._simulation.road_at_hand, state.drive.path
-        add_tracks(system.tracks, tracks, state.tree, road, path, self._motion, self._cuts, self._work, 0.0)
+        add_tracks(system.tracks, tracks, state.tree, road, path, self._motion, self._cuts, self._work, 0.0, False)
         rates = suspension.reach * state.tree.hinge_rate[suspension.row]
         force = [self._forces(side, tracks) for side in SIDES]
         return [
@@ -103,22 +110,40 @@ class RunningGear:
     def _forces(self, side, tracks):
         """Force (3,) of the ground on a side's track, and the mean tension of its runs (4,), by `RUNS`."""
         system = self._simulation.system.tracks
-        n = system.chain.links[side]
-        nodes = self._work.nodes[side].reshape(-1, STRIDE)[:, 1 : n + 1]
-        touched = nodes[NodeWorkOffset.CONTACT : NodeWorkOffset.CONTACT + 3].any(0)
-        free = ~(touched & np.roll(touched, -1))  # links, each from its pin to the next
+        n, end = system.chain.links[side], system.sprockets.end
+        nodes = self._work.nodes[side].reshape(-1, STRIDE)
+        place = 0.5 * (nodes[NodeWorkOffset.NEAR, 1 : n + 1] + nodes[NodeWorkOffset.NEAR, 2 : n + 2])
         # from the rearmost link on the ground forwards, round the front end and back
         ends = (tracks.outermost[side], tracks.link[side, -1])
-        front, rear = ends if system.sprockets.end > 0.0 else ends[::-1]
+        front, rear = ends if end > 0.0 else ends[::-1]
         last = len(self._wheels) // len(SIDES) - 1
-        first_wheel, last_wheel = tracks.link[side, 0] + 1, tracks.link[side, last]
-        corners = (last_wheel, first_wheel, front, rear, last_wheel)
-        tension = [_mean(nodes[NodeWorkOffset.TENSION], free, *corners[k : k + 2]) for k in range(len(RUNS))]
-        return nodes[NodeWorkOffset.GROUND : NodeWorkOffset.GROUND + 3].sum(1), np.array(tension)
+        corners = (tracks.link[side, last], tracks.link[side, 0] + 1, front, rear, tracks.link[side, last])
+        lower, upper = self._hubs(side, LOWER_RUN), self._hubs(side, UPPER_RUN)
+        around = self._hubs(side, END) + [self._ahead(system.sprockets.row[side])]
+        hubs = (lower, [max(lower), max(around)], around + upper, [min(lower), min(around)])
+        tension = nodes[NodeWorkOffset.TENSION, 1 : n + 1]
+        means = [_mean(tension, place, *corners[k : k + 2], sorted(hubs[k])) for k in range(len(RUNS))]
+        return nodes[NodeWorkOffset.GROUND : NodeWorkOffset.GROUND + 3, 1 : n + 1].sum(1), np.array(means)
+
+    def _hubs(self, side, run):
+        """Places of the wheels of a side's run along the hull [m]."""
+        wheels = self._simulation.system.tracks.wheels
+        return [self._ahead(row) for row in wheels.row[side, wheels.run[side] == run]]
+
+    def _ahead(self, row):
+        hull = self._simulation.system.tracks.chain.hull
+        origin = columns(self._motion, MotionOffset.ORIGIN, 3)
+        return body_axes(self._motion, hull, tuple(origin[row] - origin[hull]))[0]
 
 
-def _mean(tension, free, begin, end):
-    """Mean tension of the free links from number `begin` to before `end`, or of all if none is free."""
+def _mean(tension, place, begin, end, hubs):
+    """Mean tension of the links from number `begin` to before `end`, by their places along the hull [m].
+
+    A link counts as 1 - cos(2 pi s), s being its place between the hubs of two neighbouring wheels: what passes on a
+    wheel counts little, and no link comes or goes with a jump. A mean over the links that just touch no wheel would
+    depend on when they touch one.
+    """
     n = len(tension)
     links = (begin - 1 + np.arange((end - begin) % n)) % n
-    return tension[links[free[links]] if free[links].any() else links].mean()
+    weight = 1.0 - np.cos(2.0 * np.pi * np.interp(place[links], hubs, np.arange(len(hubs))))
+    return (weight * tension[links]).sum() / weight.sum()

@@ -16,7 +16,7 @@ from ..vehicle.system import body_rows, build_system, new_work
 from .run_in import run_in
 from .sensing import points_of
 from .settings import RunSettings
-from .step import REASONS, Status, advance_many, control_periods, new_sample, observe
+from .step import REASONS, Rows, Status, control_periods, new_sample, observe, one_row
 
 CHASSIS, POWERTRAIN = 0, 1  # rows of the sample
 HORIZON = 50.0  # m of road that a run in one process keeps ahead of the vehicle
@@ -98,7 +98,7 @@ class Simulation:
         self.points.started[:] = False
         steps = self.settings.rates.steps
         self.sample, self._next = (new_sample(self.points, steps, self.system.mounts) for _ in range(2))
-        self._work = new_work(self.system)
+        self._work, self._single = new_work(self.system), one_row(self.sample)
         self._demanded = np.zeros(self.mounting.coils)
         observe(self.system, self.state, self._work.motion, self.sample)
 
@@ -149,20 +149,21 @@ class Simulation:
         while self._expected and self._expected[0][0] <= self.time:
             self.command(*self._expected.pop(0)[1:])
         self.road_at_hand = self._road_around(1)
-        self._hold(self.road_at_hand)
-        self._demanded[:] = demanded
-        status = next(self._statuses)
-        self._end_periods(status, 1 if status == Status.GOOD else 0)
-        self.sample, self._next = self._next, self.sample
+        if self.road_at_hand is not self._held:
+            self._statuses, self._held = self._periods(self._single), self.road_at_hand
+        self._do_periods(self._statuses, demanded, self._single)
 
-    def _hold(self, road):
-        """Hand all records to the kernel, unless it holds them with this road already."""
-        if road is not self._held:
-            steps = self.settings.rates.steps
-            self._statuses = control_periods(
-                self.system, self.state, road, self._demanded, steps, self._work, self.points, self._next, self.sample
-            )
-            self._held = road
+    def _periods(self, rows):
+        """Hand all records to the kernel, with the road at hand."""
+        steps, samples = self.settings.rates.steps, (self._next, self.sample)
+        return control_periods(
+            self.system, self.state, self.road_at_hand, self._demanded, steps, self._work, self.points, *samples, rows
+        )
+
+    def _do_periods(self, statuses, demanded, rows):
+        self._demanded[:] = demanded
+        status = next(statuses)
+        self._end_periods(status, int(rows.done[0]))
 
     def advance_many(self, demanded, force, probed, speed):
         """Do a control period for each row of `force` (k, m, 3) [m/s^2], `probed` and `speed` (k,) [m/s].
@@ -171,23 +172,14 @@ class Simulation:
         and the hull's speed along its own x axis. Raises as `advance` does, with the rows before the failure filled.
         """
         self.road_at_hand = self._road_around(len(force))
-        status, done = advance_many(
-            self.system,
-            self.state,
-            self.road_at_hand,
-            demanded,
-            self.settings.rates.steps,
-            self._work,
-            self.points,
-            self.sample,
-            force,
-            probed,
-            speed,
-        )
-        self._end_periods(status, done)
+        rows = Rows(np.array([len(speed)]), np.zeros(1, int), force, probed, speed)
+        self._do_periods(self._periods(rows), demanded, rows)
+        self._held = None  # the samples may lie the other way round now
 
     def _end_periods(self, status, done):
         self.periods += done
+        if done % 2:
+            self.sample, self._next = self._next, self.sample
         if status != Status.GOOD:
             raise RunFailed(f"{REASONS[status]} after t = {self.time / NANO:.3f} s")
 

@@ -1,4 +1,4 @@
-"""One physics step, and a control period of them in a single compiled call."""
+"""One physics step, and control periods of them in a single compiled generator."""
 
 from enum import IntEnum
 from typing import NamedTuple
@@ -69,6 +69,22 @@ def new_sample(points, steps, mounts):
     m, p = len(points.body), len(points.probe_body)
     measured = np.zeros((m, 3)), np.zeros((m, 3)), np.zeros((steps, p, 3))
     return Sample(*measured, np.zeros((1, 3)), np.zeros((1, 3)), new_mount_sample(mounts))
+
+
+class Rows(NamedTuple):
+    """How many control periods to do in one go, and what is kept of each."""
+
+    wanted: np.ndarray  # (1,) how many
+    done: np.ndarray  # (1,) how many of them were good so far
+    specific_force: np.ndarray  # (k, m, 3) of the sensors at each period's end, k = wanted or 0, m/s^2
+    probed: np.ndarray  # (k, steps, p, 3) m/s^2
+    speed: np.ndarray  # (k,) of the hull along its own x axis, m/s
+
+
+def one_row(sample):
+    """Return the `Rows` of single periods of which nothing is kept but the sample."""
+    parts = (np.zeros((0, *part.shape)) for part in (sample.specific_force, sample.probed))
+    return Rows(np.ones(1, int), np.zeros(1, int), *parts, np.zeros(0))
 
 
 @inlined
@@ -152,11 +168,28 @@ def _total_speed(tree):
 
 
 @kernel
-def advance(system, state, road, demanded, steps, work, points, sample):
-    """Advance the vehicle by one control period of `steps` physics steps with constant demanded currents (c,) [A].
+def control_periods(system, state, road, demanded, steps, work, points, following, last, rows):
+    """Advance by control periods of `steps` physics steps, with the demanded currents (c,) [A] of that moment.
 
-    Fills `sample`. Returns `GOOD`, or at once what made the state leave the valid range.
+    Each turn of the generator does as many periods as `rows` asks for, notes how many were good and yields `GOOD`, or
+    at once what made the state leave the valid range. The samples are filled in turns, beginning with `following`; that
+    of a period that is not good is filled again. A generator keeps its arguments as kernels take them: to hand over
+    these records of hundreds of arrays anew costs half of the physics. It does not own them.
     """
+    while True:
+        status, rows.done[0] = Status.GOOD, 0
+        while status == Status.GOOD and rows.done[0] < rows.wanted[0]:
+            status = _advance(system, state, road, demanded, steps, work, points, following)
+            if status == Status.GOOD:
+                _keep(rows, following)
+                following, last = last, following
+                rows.done[0] += 1
+        yield status
+
+
+@inlined
+def _advance(system, state, road, demanded, steps, work, points, sample):
+    """Advance by one period; returns `GOOD`, or at once what made the state leave the valid range."""
     for step in range(steps):
         drive_coils(system.coil, demanded, state.coils)
         add_forces(system, state, road, work)
@@ -168,42 +201,20 @@ def advance(system, state, road, demanded, steps, work, points, sample):
     return Status.GOOD
 
 
-@kernel
-def control_periods(system, state, road, demanded, steps, work, points, following, last):
-    """Generate the statuses of control periods as `advance` gives them, samples being filled in turns.
-
-    The first period fills `following`; the sample of a period that is not good is filled again. A generator keeps its
-    arguments as kernels take them: to hand over these records of hundreds of arrays anew costs half of the physics. It
-    does not own them.
-    """
-    while True:
-        status = advance(system, state, road, demanded, steps, work, points, following)
-        if status == Status.GOOD:
-            following, last = last, following
-        yield status
-
-
-@kernel
-def advance_many(system, state, road, demanded, steps, work, points, sample, force, probed, speed):
-    """Advance by as many control periods as `speed` (k,) has rows; fill it, `force` (k, m, 3) and `probed`.
-
-    The last is (k, steps, p, 3), as a sample has it.
-
-    Returns the status as `advance` does and the number of good periods.
-    """
-    for k in range(speed.size):
-        status = advance(system, state, road, demanded, steps, work, points, sample)
-        if status != Status.GOOD:
-            return status, k
-        speed[k] = sample.hull_velocity[0, 0]
-        for i in range(points.body.size):
+@inlined
+def _keep(rows, sample):
+    """Copy a sample to its row, if there is one."""
+    k = rows.done[0]
+    if k >= rows.speed.size:
+        return
+    rows.speed[k] = sample.hull_velocity[0, 0]
+    for i in range(sample.specific_force.shape[0]):
+        for axis in range(3):
+            rows.specific_force[k, i, axis] = sample.specific_force[i, axis]
+    for step in range(sample.probed.shape[0]):
+        for i in range(sample.probed.shape[1]):
             for axis in range(3):
-                force[k, i, axis] = sample.specific_force[i, axis]
-        for step in range(steps):
-            for i in range(points.probe_body.size):
-                for axis in range(3):
-                    probed[k, step, i, axis] = sample.probed[step, i, axis]
-    return Status.GOOD, speed.size
+                rows.probed[k, step, i, axis] = sample.probed[step, i, axis]
 
 
 @kernel

@@ -5,7 +5,7 @@ import pytest
 from trackvib_sim.road.store import Road
 from trackvib_sim.simulation.sensing import points_of
 from trackvib_sim.simulation.settings import Rates
-from trackvib_sim.simulation.step import Status, advance, new_sample
+from trackvib_sim.simulation.step import Status, control_periods, new_sample, one_row
 from trackvib_sim.vehicle.system import new_state, new_work
 
 NO_SENSORS = points_of((), (), {}, Rates())
@@ -28,10 +28,12 @@ def mover():
 
     def make(system):
         work, sensors, current = new_work(system), NO_SENSORS, np.ones_like(new_state(system).coils.field)
-        sample = new_sample(sensors, 0, system.mounts)
+        samples = [new_sample(sensors, 0, system.mounts) for _ in range(2)]
+        rows = one_row(samples[0])
 
         def move(state, road, steps):
-            assert advance(system, state, road, current, steps, work, sensors, sample) == Status.GOOD
+            periods = control_periods(system, state, road, current, steps, work, sensors, *samples, rows)
+            assert next(periods) == Status.GOOD
 
         return move
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from trackvib_sim.road.store import Road
@@ -44,6 +44,7 @@ def _rough(seed, size=0.05):
 
 @pytest.mark.property
 @given(seed=SEEDS)
+@example(seed=32159685)  # a lightly loaded shoe with much shear
 def test_ground_pushes_and_shears_within_friction(system, shoe, seed):
     """Whatever place and speed: the normal force is no pull, friction at most its share of it, heat never negative."""
     random, road, ground = np.random.default_rng(seed), _rough(seed), system.tracks.ground
@@ -79,7 +80,7 @@ def test_shoe_stands_on_its_spring_and_slides_at_its_limit(system, shoe):
     assert stored == pytest.approx(0.5 * ground.stiffness * depth**2)
     node[NodeOffset.VELOCITY] = speed
     limit, slid = ground.friction * ground.stiffness * depth, 0.0
-    for _ in range(round(2.5 * limit / ground.shear_stiffness / (speed * DT))):
+    for _ in range(round(4.0 * limit / ground.shear_stiffness / (speed * DT))):
         dissipation, stored, _ = _press(ground, road, state, work)
         slid += speed * DT
         held = min(ground.shear_stiffness * slid + ground.shear_damping * speed, limit)
@@ -90,7 +91,7 @@ def test_shoe_stands_on_its_spring_and_slides_at_its_limit(system, shoe):
     node[NodeOffset.PLACE + 2] = 0.001
     dissipation, stored, touching = _press(ground, road, state, work)
     assert not force.any() and stored == 0.0 and touching == 0.0
-    left = (limit - ground.shear_damping * speed) / ground.shear_stiffness
+    left = limit / ground.shear_stiffness  # the soil itself does not move any more while the shoe slides
     assert dissipation * DT == pytest.approx(0.5 * ground.shear_stiffness * left**2, rel=1e-9)
 
 

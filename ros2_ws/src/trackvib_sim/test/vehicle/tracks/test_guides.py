@@ -8,8 +8,9 @@ from trackvib_sim.data import find_vehicle
 from trackvib_sim.vehicle.system import Operation, build_system
 from trackvib_sim.vehicle.tracks.guides import REACH
 from trackvib_sim.vehicle.tracks.nodes import NodeWorkOffset, close_chain, new_node_work
+from trackvib_sim.vehicle.tracks.rims import WheelLoadOffset, new_contacts, press_contacts, take_contacts
 from trackvib_sim.vehicle.tracks.sprockets import add_sprocket
-from trackvib_sim.vehicle.tracks.wheels import Hub, WheelLoadOffset, add_wheel
+from trackvib_sim.vehicle.tracks.wheels import Hub, list_contacts
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
 from .momentum import shoes
@@ -30,7 +31,7 @@ def tracks(request):
 @pytest.fixture(scope="module", params=["wheel", "sprocket"])
 def touched(request, tracks):
     """A function of a hub's place (3,) that returns what a straight track does to it, and its height at a touch [m]."""
-    work, middle = new_node_work()[0], LINKS // 2
+    work, middle, contacts = new_node_work()[0], LINKS // 2, new_contacts(1)
     node = shoes(tracks.chain._replace(links=np.full(2, LINKS)), work)
     node[NodeWorkOffset.NEAR] = tracks.chain.free_length[0] * (np.arange(1, LINKS + 1) - middle)
     close_chain(work, NodeWorkOffset.NEAR, 6, LINKS)
@@ -38,7 +39,9 @@ def touched(request, tracks):
     def touch(place):
         load, hub = np.zeros(WheelLoadOffset.SIZE), Hub(*place, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
         if request.param == "wheel":
-            add_wheel(tracks.wheels, 0, 0, hub, middle, LINKS, work, load)
+            count = list_contacts(tracks.wheels, 0, 0, hub, middle, LINKS, work, contacts, 0)
+            press_contacts(contacts, count)
+            take_contacts(contacts, 0, count, LINKS, work, load)
         else:
             add_sprocket(tracks.sprockets, hub, ANGLE, middle, LINKS, work, load)
         return load

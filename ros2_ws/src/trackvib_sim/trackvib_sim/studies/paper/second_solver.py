@@ -52,7 +52,6 @@ class PinocchioSimulation(Simulation):
                 self._end_periods(status, 0)
         observe(system, state, work.motion, self._next)
         self._end_periods(Status.GOOD, 1)
-        self.sample, self._next = self._next, self.sample
 
     def advance_many(self, demanded, force, probed, speed):
         """As `Simulation.advance_many`."""

@@ -90,7 +90,9 @@ def add_ground(ground, nodes, heights, first, spacing, begin, end, work, dt):
         ground.shear_damping,
         ground.friction,
     )
-    yielding = 1.0 / k_s if k_s > 0.0 else 0.0  # m/N: a ground without springs keeps no shear
+    # the soil's spring and damper yield by what friction lets through; a ground without springs keeps no shear
+    give = dt / (k_s * dt + c_s) if k_s > 0.0 else 0.0  # m/N
+    keep = c_s / (k_s * dt + c_s) if k_s > 0.0 else 0.0
     for i in range(count):
         low, rise = work[NodeWorkOffset.LOW * STRIDE + i], work[NodeWorkOffset.RISE * STRIDE + i]
         slope = rise * per_metre * work[NodeWorkOffset.CLOSENESS * STRIDE + i]
@@ -111,8 +113,8 @@ def add_ground(ground, nodes, heights, first, spacing, begin, end, work, dt):
         pull_y = k_s * (shear_y + dt * vy) + c_s * vy
         cut = min(mu * normal / (np.sqrt(pull_x * pull_x + pull_y * pull_y) + LEAST), 1.0)
         pull_x, pull_y = cut * pull_x, cut * pull_y
-        shear_x = on * (pull_x - c_s * ahead) * yielding
-        shear_y = on * (pull_y - c_s * vy) * yielding
+        shear_x = on * (give * pull_x + keep * shear_x)
+        shear_y = on * (give * pull_y + keep * shear_y)
         nodes[NodeOffset.SHEAR * STRIDE + i] = shear_x
         nodes[(NodeOffset.SHEAR + 1) * STRIDE + i] = shear_y
         push = -sine * normal - cosine * pull_x
