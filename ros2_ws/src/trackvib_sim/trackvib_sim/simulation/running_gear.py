@@ -79,7 +79,7 @@ class RunningGear:
             MeasuredKind(
                 "track_tension",
                 "N",
-                "mean over the links of the run, those half-way between two wheels counting most",
+                "mean of the run, weighted to the middle between wheels",
                 by_run,
             ),
             MeasuredKind("sprocket_torque", "N m", "of the drive on the sprocket", sides),

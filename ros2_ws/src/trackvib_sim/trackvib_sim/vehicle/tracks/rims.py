@@ -1,8 +1,9 @@
 """Rims on links: the contacts of all wheels of a side, first listed, then evaluated side by side.
 
 The rim's rubber is a radial spring and damper; friction, regularised by a small creep speed, turns the wheel with the
-track; guide horns hold the shoes sideways, those that do not yet touch the rim as well. A contact by itself is a chain of roots and quotients that wait for each
-other. So each wheel only lists where it touches, and one loop over the list makes vector instructions of them.
+track; guide horns hold the shoes sideways, those that do not yet touch the rim as well. A contact by itself is a chain
+of roots and quotients that wait for each other. So each wheel only lists where it touches, and one loop over the list
+makes vector instructions of them.
 """
 
 from enum import IntEnum

@@ -149,7 +149,7 @@ def find_outermost(end, work, i, n):
 
 @inlined
 def list_contacts(wheels, side, k, hub, link, n, work, contacts, first):
-    """List what one wheel touches, or its guides hold, of the links around its own, from number `first` on; returns the next.
+    """List where one wheel touches or holds the links around its own, from number `first` on; returns the next one.
 
     Where the chain bends round the wheel, the feet on two links can lie inside both of them: their common pin then
     counts once less. Where it bends away, a foot can lie in neither: the pin counts by itself. So the force is that
