@@ -61,7 +61,7 @@ def tell(pitch, drives, same):
     print(f"links of {pitch:g} m pass at {LINES['chassis']} Hz at {same.speed:.2f} m/s")
     print(f"{'reduction from chassis to powertrain, %':<42}{'field test':>11}{'here':>9}")
     for axis, name in (("z", "vertical"), ("y", "lateral"), ("x", "longitudinal")):
-        print(f"  {name:<40}{REDUCTIONS[axis]:>11.2f}{reduction(same, axis):>9.2f}")
+        print(f"  {name:<40}{REDUCTIONS[axis]:>11.2f}{reduction(same, axis):>z9.2f}")
     print(f"{f'highest line from {NEAR[0]:.0f} to {NEAR[1]:.0f} Hz, Hz':<42}{'field test':>11}{'here':>9}")
     for sensor, frequency in LINES.items():
         print(f"  {f'{sensor}, vertical':<40}{frequency:>11.2f}{peak(same, sensor):>9.2f}")
