@@ -35,7 +35,7 @@ class PinocchioTree:
 
     def __init__(self, bodies, gravity):
         self._model, self._joints, within = pinocchio_model(bodies, gravity)
-        self._within = np.array([place.translation for place in within])
+        self._arms = np.array([pin.skew(place.translation) for place in within])  # of the origins, in the joints' axes
         self._data = self._model.createData()
         self._free = [self._model.joints[self._joints[row]] for row in free_bodies(bodies)]
         moving = {row: self._model.joints[self._joints[row]] for row in _moving(bodies)}
@@ -73,10 +73,10 @@ class PinocchioTree:
 
     def _load(self, loads):
         """Let loads on bodies act on their joints, about the joints' origins and in their axes."""
-        attitude = np.array(self._attitudes)  # to global axes
-        force, moment = (np.matmul(part[:, None, :], attitude)[:, 0] for part in (loads.force, loads.moment))
+        to_local = np.array(self._attitudes).transpose(0, 2, 1)
+        force, moment = to_local @ loads.force[:, :, None], to_local @ loads.moment[:, :, None]
         total = np.zeros((len(self._wrenches), 6))
-        np.add.at(total, self._joints, np.hstack((force, moment + np.cross(self._within, force))))
+        np.add.at(total, self._joints, np.hstack((force, moment + self._arms @ force))[:, :, 0])
         for wrench, new in zip(self._wrenches, total, strict=True):
             wrench[:] = new
 
