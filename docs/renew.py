@@ -70,10 +70,13 @@ def _cell(text):
 
 
 class Commands:
-    """Runs each command of the documents once, in a folder of its own below `top`."""
+    """Runs each command of the documents once, in a folder of its own below `top`.
 
-    def __init__(self, top, **environment):
-        self._top = Path(top)
+    `prepare(command, folder)` may put there what an interrupted command would have left.
+    """
+
+    def __init__(self, top, prepare=lambda command, folder: None, **environment):
+        self._top, self._prepare = Path(top), prepare
         self._env = {**os.environ, "COLUMNS": "100", "TERM": "dumb", **environment}
         self._done = {}
 
@@ -94,6 +97,7 @@ class Commands:
             folder = self._top / str(sum(1 for _ in self._top.iterdir()))
             folder.mkdir()
             (folder / "docs").symlink_to(ROOT / "docs")  # which commands name from the top of a checkout
+            self._prepare(command, folder)
             done = subprocess.run(words, cwd=folder, env=self._env, capture_output=True, text=True, timeout=TIME_LIMIT)
             if done.returncode:
                 raise ValueError(f"{command} ended with exit code {done.returncode}:\n{done.stdout}{done.stderr}")

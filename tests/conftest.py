@@ -18,6 +18,7 @@ from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import Trigger
 
 from .bag_helpers import edit_bag
+from .kept_cases import KeptCases
 from .processes import PATIENCE, Process, Program, processes_printing_to, trackvib
 
 PACKAGES = {
@@ -31,6 +32,12 @@ PACKAGES = {
 # s, an `answer_timeout` that a busy machine does not use up: for runs in which silence would be an error.
 UNHURRIED = 20.0
 DOMAINS = range(40, 100)
+FIRST = ("test_tutorials.py", "test_studies.py")  # leave cases of studies that the documents' commands need not drive
+
+
+def pytest_collection_modifyitems(items):
+    """Begin with what others can use; everything else stays in its order."""
+    items.sort(key=lambda item: item.path.name not in FIRST)
 
 
 def wait_until(condition, seconds=PATIENCE, what="what is waited for"):
@@ -63,10 +70,22 @@ def domain():
 
 
 @pytest.fixture(scope="session")
-def recorded_run(tmp_path_factory):
-    """The folder of one `trackvib run` under skyhook, shared by all tests that only read it, on all cores."""
+def shared_folder(tmp_path_factory):
+    """A folder of the test run, the same one for all its workers."""
     base = tmp_path_factory.getbasetemp()
-    folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "recorded_run"
+    return base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+
+
+@pytest.fixture(scope="session")
+def kept_cases(shared_folder):
+    """Finished cases of studies, see `KeptCases`."""
+    return KeptCases(shared_folder / "kept_cases")
+
+
+@pytest.fixture(scope="session")
+def recorded_run(shared_folder):
+    """The folder of one `trackvib run` under skyhook, shared by all tests that only read it, on all cores."""
+    folder = shared_folder / "recorded_run"
     with folder.with_suffix(".lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not folder.exists():

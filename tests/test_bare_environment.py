@@ -42,6 +42,7 @@ def bare(tmp_path_factory):
     environment = {name: os.environ[name] for name in KEPT if name in os.environ} | {
         name: value for name, value in os.environ.items() if name.startswith("PIP_") or name.lower().endswith("_proxy")
     }
+    environment["NUMBA_OPT"] = "0"  # every kernel is compiled, for two hundred periods only
     base = Path(sys.base_prefix) / "bin" / f"python3.{sys.version_info.minor}"
     python = folder / "venv" / "bin" / "python"
 

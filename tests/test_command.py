@@ -123,15 +123,22 @@ def of_nobody():
 
 
 @SLOW
-@pytest.mark.parametrize("place", ["HOME", "XDG_CACHE_HOME", "TMPDIR"])
-def test_another_user_gets_the_compiled_kernels(run, env, of_nobody, place):
-    """They are copied to the one place where he can write; then a run compiles nothing anew."""
+@pytest.mark.parametrize(
+    ("place", "job"),
+    [
+        ("HOME", [*SHORT_RUN, "--out", "result"]),
+        ("XDG_CACHE_HOME", ["exec", "--", "python", "-m", "trackvib_sim.compile_kernels"]),
+        ("TMPDIR", ["exec", "--", "python", "-m", "trackvib_sim.compile_kernels"]),
+    ],
+    ids=["HOME", "XDG_CACHE_HOME", "TMPDIR"],
+)
+def test_another_user_gets_the_compiled_kernels(run, env, of_nobody, place, job):
+    """They are copied to the one place where he can write; then a run, or what calls every kernel, compiles none."""
     compiled = _contents(Path(env["NUMBA_CACHE_DIR"]))
     own = {"PATH": env["PATH"], "HOME": "/nonexistent", "ROS_DOMAIN_ID": env["ROS_DOMAIN_ID"], place: str(of_nobody)}
     env.clear()
     env.update(own)
-    command = [*AS_NOBODY, "env", "-C", of_nobody, TRACKVIB, *SHORT_RUN, "--out", of_nobody / "result"]
-    code, output = run(*command)
+    code, output = run(*AS_NOBODY, "env", "-C", of_nobody, TRACKVIB, *job)
     assert code == 0, output
     (copy,) = {index.parents[1] for index in of_nobody.rglob("*.nbi")}
     assert _contents(copy) == compiled

@@ -41,9 +41,14 @@ def shown(kind):
 
 
 @pytest.fixture(scope="module")
-def commands(tmp_path_factory, domain):
-    """Each command runs once for all that the documents take from it."""
-    return renew.Commands(tmp_path_factory.mktemp("commands"), ROS_DOMAIN_ID=str(domain))
+def commands(tmp_path_factory, domain, kept_cases):
+    """Each command runs once for all that the documents take from it; studies lack what other tests have not driven."""
+
+    def prepare(command, folder):
+        if study := re.match(r"\./trackvib study (\w+)", command):
+            kept_cases.give(folder / study[1], study[1])
+
+    return renew.Commands(tmp_path_factory.mktemp("commands"), prepare, ROS_DOMAIN_ID=str(domain))
 
 
 def python(document):

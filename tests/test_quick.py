@@ -21,7 +21,7 @@ REAL = (
 @pytest.fixture(scope="module")
 def quick():
     """The quick tests, as pytest names them."""
-    command = [sys.executable, "-m", "pytest", "-m", "not slow", "--collect-only", "-q", "-n", "0"]
+    command = [sys.executable, "-m", "pytest", "-m", "not slow", "--collect-only", "-q", "-n", "0", "--assert=plain"]
     done = subprocess.run(
         [*command, "tests", *sorted(ROOT.glob("ros2_ws/src/*/test"))], cwd=ROOT, capture_output=True, text=True
     )

@@ -62,7 +62,7 @@ def finished(folder):
     return {file.name: file.stat().st_mtime_ns for file in (folder / "cases").glob("*.json")}
 
 
-def test_leaves_table_report_and_picture(table1, tmp_path):
+def test_leaves_table_report_and_picture(table1, tmp_path, kept_cases):
     """From any directory; again with what is there already, no worker is needed and nothing is done anew."""
     run = table1("--classes", "A", "--speeds", "20", "--seeds", "1")
     assert run.wait() == 0, run.output
@@ -78,13 +78,14 @@ def test_leaves_table_report_and_picture(table1, tmp_path):
     assert (folder / "table1.png").read_bytes().startswith(PNG)
     before = finished(folder)
     assert len(before) == 1
+    kept_cases.keep(folder, "table1")
     again = table1("--classes", "A", "--speeds", "20", "--seeds", "1", "--scheduler", "tcp://127.0.0.1:1")
     assert again.wait() == 0, again.output
     assert finished(folder) == before
 
 
 @SLOW
-def test_goes_on_where_it_was_interrupted(table1, tmp_path):
+def test_goes_on_where_it_was_interrupted(table1, tmp_path, kept_cases):
     """Ctrl-C keeps what is finished and says so in one line; the same command does the rest only."""
     folder = tmp_path / "study"
     run = table1(*SMALL, "--out", folder)
@@ -101,10 +102,11 @@ def test_goes_on_where_it_was_interrupted(table1, tmp_path):
     assert len(finished(folder)) == 4
     assert finished(folder).items() >= kept.items()
     assert not [path for path in folder.rglob("*") if path.name.startswith(".")]
+    kept_cases.keep(folder, "table1")
 
 
 @SLOW
-def test_a_full_disk_ends_the_study_in_one_line(start, tmp_path):
+def test_a_full_disk_ends_the_study_in_one_line(start, tmp_path, kept_cases):
     """Files cannot grow beyond 20 kB, so the picture is not there, nor half of it; every finished run is kept."""
     command = [
         sys.executable,
@@ -129,10 +131,11 @@ def test_a_full_disk_ends_the_study_in_one_line(start, tmp_path):
     again = start(command)
     assert again.wait() == 0, again.output
     assert finished(folder) == kept and (folder / "table1.png").exists()
+    kept_cases.keep(folder, "table1")
 
 
 @SLOW
-def test_a_folder_that_goes_ends_the_study_in_one_line(table1, tmp_path):
+def test_a_folder_that_goes_ends_the_study_in_one_line(table1, tmp_path, kept_cases):
     """Nothing is made in its old place; the runs that it holds are whole."""
     run = table1(*SMALL)
     wait_until(lambda: finished(tmp_path / "table1"), run)
@@ -141,14 +144,16 @@ def test_a_folder_that_goes_ends_the_study_in_one_line(table1, tmp_path):
     assert run.output.count("error: ") == 1 and "No such file or directory: 'table1/cases/" in run.output
     assert "Traceback" not in run.output and not (tmp_path / "table1").exists()
     kept = finished(tmp_path / "elsewhere")
+    kept_cases.give(tmp_path / "elsewhere", "table1")
     again = table1(*SMALL, "--out", "elsewhere")
     assert again.wait() == 0, again.output
     assert finished(tmp_path / "elsewhere").items() >= kept.items()
 
 
 @SLOW
-def test_a_killed_worker_changes_nothing(table1, scheduler, tmp_path):
+def test_a_killed_worker_changes_nothing(table1, scheduler, tmp_path, kept_cases):
     """A cluster of two workers, one of them killed midway, gives the table that this machine alone gives."""
+    kept_cases.give(tmp_path / "cluster", "table1", ("left_out",))  # which do not count in the table
     address, process, worker = scheduler
     workers = [worker(), worker()]
     run = table1(*SMALL, "--out", tmp_path / "cluster", "--scheduler", address)
@@ -157,6 +162,7 @@ def test_a_killed_worker_changes_nothing(table1, scheduler, tmp_path):
     assert len(finished(tmp_path / "cluster")) < 4, "it was not killed midway"
     assert run.wait() == 0, run.output
     assert not workers[0].running and workers[1].running
+    kept_cases.give(tmp_path / "alone", "table1")
     alone = table1(*SMALL, "--out", tmp_path / "alone")
     assert alone.wait() == 0, alone.output
     ours, theirs = ((tmp_path / name / "table1.csv").read_bytes() for name in ("alone", "cluster"))

@@ -12,6 +12,7 @@ from .printed_words import NUMBER, compared
 # Part of the largest number in a line by which others may differ: contacts amplify the rounding of another processor,
 # and short runs of few seeds scatter the more.
 SCATTER = 0.3
+STUDY = re.compile(r"^\./trackvib study (\w+) .*--out (\w+)", re.MULTILINE)
 INTERVAL = re.compile(r"([-+]?\d+\.\d+) ± (\d+\.\d+)")
 
 pytestmark = pytest.mark.system
@@ -45,7 +46,7 @@ def free_port():
 
 @pytest.mark.slow(reason="runs and studies in real processes")
 @pytest.mark.parametrize("page", tutorial_pages.PAGES, ids=lambda page: page.stem)
-def test_page_does_what_it_says(page, tmp_path, domain):
+def test_page_does_what_it_says(page, tmp_path, domain, kept_cases):
     """Every command succeeds and prints what the page shows; the last picture is the one that they leave."""
     text = page.read_text(encoding="utf-8")
     (tmp_path / "work").mkdir()
@@ -56,6 +57,8 @@ def test_page_does_what_it_says(page, tmp_path, domain):
             assert before, step.commands
             for old, new in zip(before, now, strict=True):
                 assert alike(old, new), f"the page has\n{old}\nand the commands print\n{new}"
+    for study, folder in STUDY.findall(text):
+        kept_cases.keep(tmp_path / "work" / folder, study)
     ((made, shown),) = tutorial_pages.pictures(text)
     assert imread(tmp_path / "work" / made).shape == imread(page.parent / shown).shape
 

@@ -16,7 +16,7 @@ def run_missing(vehicle, cases, store, scheduler, progress, description, run=dri
     cases : sequence of drive.Case, or of what `run` takes
     store : case_store.CaseStore
         Of the same cases and of the results of `run`.
-    scheduler : str or None
+    scheduler : str, None or workers.SharedWorkers
         As `workers.workers` takes it.
     progress : rich.progress.Progress
         Shows how many of the cases are done, as `description`.

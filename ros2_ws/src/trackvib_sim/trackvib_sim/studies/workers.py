@@ -4,7 +4,7 @@ import asyncio
 import logging
 import os
 import signal
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from multiprocessing import resource_tracker
 
 import dask
@@ -33,11 +33,16 @@ class WorkersError(RuntimeError):
 def workers(scheduler, cases):
     """Give a Dask `Client`: of the scheduler at an address, or, if that is None, of one process a core of this machine.
 
+    Of `SharedWorkers` it is theirs, which lasts.
+
     Raises
     ------
     WorkersError
         Nothing answers at the address, or workers that have no trackvib, or another version of it.
     """
+    if isinstance(scheduler, SharedWorkers):
+        yield scheduler.client()
+        return
     for name in _NOISY:
         logging.getLogger(name).setLevel(logging.CRITICAL)  # an error that matters here is raised
     if scheduler is None:
@@ -48,6 +53,30 @@ def workers(scheduler, cases):
     with Client(scheduler, timeout=PATIENCE) as client:
         _check_workers(client, scheduler)
         yield client
+
+
+class SharedWorkers:
+    """Workers for several parts of a study: begun for the first that needs them, they end with this context.
+
+    They are given where an address is wanted; `scheduler` and `cases`, the most that there can be, are as `workers`
+    takes them.
+    """
+
+    def __init__(self, scheduler, cases):
+        self._scheduler, self._cases = scheduler, cases
+        self._begun, self._client = ExitStack(), None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *error):
+        return self._begun.__exit__(*error)
+
+    def client(self):
+        """Return their `Client`; raises as `workers`."""
+        if self._client is None:
+            self._client = self._begun.enter_context(workers(self._scheduler, self._cases))
+        return self._client
 
 
 def results(client, vehicle, cases, run=drive):

@@ -34,13 +34,19 @@ class PinocchioTree:
     """A table of bodies in Pinocchio: articulated-body algorithm. What an elastic hinge does is among the loads."""
 
     def __init__(self, bodies, gravity):
-        self._model, self._joints, self._within = pinocchio_model(bodies, gravity)
+        self._model, self._joints, within = pinocchio_model(bodies, gravity)
+        self._arms = np.array([pin.skew(place.translation) for place in within])  # of the origins, in the joints' axes
         self._data = self._model.createData()
         self._free = [self._model.joints[self._joints[row]] for row in free_bodies(bodies)]
         moving = {row: self._model.joints[self._joints[row]] for row in _moving(bodies)}
         self._rows = list(moving)
         self._q_of, self._v_of = [joint.idx_q for joint in moving.values()], [joint.idx_v for joint in moving.values()]
         self._frames = [self._model.getFrameId(body.name, pin.FrameType.BODY) for body in bodies]
+        # Views of Pinocchio's own numbers: to ask for each of them anew takes longer than its algorithm.
+        self._attitudes = [self._data.oMf[frame].rotation for frame in self._frames]
+        self._external = pin.StdVec_Force()
+        self._external.extend(pin.Force.Zero() for _ in range(self._model.njoints))
+        self._wrenches = [force.vector for force in self._external]
         self._q, self._v, self._torque = pin.neutral(self._model), np.zeros(self._model.nv), np.zeros(self._model.nv)
 
     def solve(self, state, loads):
@@ -55,11 +61,8 @@ class PinocchioTree:
         q[self._q_of], v[self._v_of] = state.hinge[self._rows], state.hinge_rate[self._rows]
         torque[self._v_of] = loads.torque[self._rows]
         pin.framesForwardKinematics(model, data, q)
-        external = [pin.Force.Zero() for _ in range(model.njoints)]
-        for row, (joint, place) in enumerate(zip(self._joints, self._within, strict=True)):
-            to_local = data.oMf[self._frames[row]].rotation.T
-            external[joint] += place.act(pin.Force(to_local @ loads.force[row], to_local @ loads.moment[row]))
-        a = pin.aba(model, data, q, v, torque, external).copy()
+        self._load(loads)
+        a = pin.aba(model, data, q, v, torque, self._external).copy()
         pin.forwardKinematics(model, data, q, v, a)
         axes = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
         linear = [pin.getFrameClassicalAcceleration(model, data, frame, axes).linear for frame in self._frames]
@@ -67,6 +70,15 @@ class PinocchioTree:
         hinge = np.zeros(len(self._joints))
         hinge[self._rows] = a[self._v_of]
         return BodyAccelerations(np.array(linear), np.array(angular), hinge)
+
+    def _load(self, loads):
+        """Let loads on bodies act on their joints, about the joints' origins and in their axes."""
+        to_local = np.array(self._attitudes).transpose(0, 2, 1)
+        force, moment = to_local @ loads.force[:, :, None], to_local @ loads.moment[:, :, None]
+        total = np.zeros((len(self._wrenches), 6))
+        np.add.at(total, self._joints, np.hstack((force, moment + self._arms @ force))[:, :, 0])
+        for wrench, new in zip(self._wrenches, total, strict=True):
+            wrench[:] = new
 
 
 def _moving(bodies):

@@ -84,7 +84,7 @@ def foretold(text, paper, cases, folder, scheduler, console):
     cases : sequence of case.Case
     folder : pathlib.Path
         Where finished runs are kept.
-    scheduler : str or None
+    scheduler : str, None or workers.SharedWorkers
         As `workers.workers` takes it.
     console : rich.console.Console
     """

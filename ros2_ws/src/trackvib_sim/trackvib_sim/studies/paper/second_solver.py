@@ -75,11 +75,10 @@ def added_loads(tree, work):
     """Return the `Loads` that forces have added to the cuts of a `vehicle.system.Work`, as long as it is not solved."""
     own = new_cuts(tree)
     open_cuts(tree, work.motion, new_rows(tree), own)
-    force, moment, torque = (
-        (columns(work.cuts, first, count) - columns(own, first, count))[tree.row]
-        for first, count in ((CutOffset.FORCE, 3), (CutOffset.MOMENT, 3), (CutOffset.TORQUE, 1))
-    )
-    return Loads(force, moment, torque[:, 0], np.zeros(len(tree.row)))
+    first, count = CutOffset.FORCE, CutOffset.TORQUE + 1 - CutOffset.FORCE
+    added = (columns(work.cuts, first, count) - columns(own, first, count))[tree.row]
+    moment, torque = CutOffset.MOMENT - first, CutOffset.TORQUE - first
+    return Loads(added[:, :moment], added[:, moment:torque], added[:, torque], np.zeros(len(tree.row)))
 
 
 def solved(tree, work):

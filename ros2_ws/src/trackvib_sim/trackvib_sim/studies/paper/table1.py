@@ -13,6 +13,7 @@ from ...vehicle.vehicle_file import read_vehicle
 from ..case import BAND, GOOD, Case
 from ..case_store import CaseStore
 from ..run_missing import run_shown
+from ..workers import SharedWorkers
 from .paper_table import error_factor, given, read_table, table_csv, table_rows
 from .predictions import by_speed_alone, foretold, ours
 from .table1_picture import table_picture
@@ -47,8 +48,9 @@ def run_table1(classes, speeds, seeds, vehicle_file, scheduler, out):
     folder, console = Path(out), Terminal()
     store = CaseStore(folder / "cases", text)
     wanted = cases(classes, speeds, seeds)
-    rows = table_rows(run_shown(vehicle, wanted, store, folder, console, scheduler))
-    left_out = foretold(text, paper, wanted, folder / "left_out", scheduler, console)
+    with SharedWorkers(scheduler, len(wanted)) as shared:
+        rows = table_rows(run_shown(vehicle, wanted, store, folder, console, shared))
+        left_out = foretold(text, paper, wanted, folder / "left_out", shared, console)
     predictions = [ours(rows, left_out, paper), *by_speed_alone(paper)]
     with new_file(folder / "table1.csv") as file:
         file.write(table_csv(rows).encode())
