@@ -73,14 +73,15 @@ class LivePoses:
             self._follow(Imu, topics.imu_topic(name), name, {"linear_acceleration": 3})
 
     def look(self, seconds):
-        """Take in what comes within some time."""
-        end = time.monotonic() + seconds
+        """Take in what comes within some time; returns whether anything did."""
+        first, end = self._received, time.monotonic() + seconds
         while time.monotonic() < end:
             time.sleep(_REST)
             before = None
             while self._received != before and time.monotonic() < end:  # one callback each
                 before = self._received
                 self._executor.spin_once(timeout_sec=0.0)
+        return self._received > first
 
     def take_sensor(self, name):
         """Return times (k,) [ns] and specific forces (k, 3) [m/s^2] that came since the last call."""

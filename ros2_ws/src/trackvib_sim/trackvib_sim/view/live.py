@@ -1,5 +1,8 @@
 """A run that goes on as a growing recording of Rerun, piece by piece."""
 
+import time
+from math import inf
+
 import numpy as np
 
 from ..nodes.live_poses import LivePoses
@@ -10,6 +13,7 @@ from .rerun_recording import STEP, new_stream
 from .vehicle_log import VehicleLog
 
 _PIECE = 0.5  # s of wall time
+_LAST = 10.0  # s of wall time that the end takes at most, should messages never cease
 
 
 def live_pieces(vehicle, title, namespace, over):
@@ -27,30 +31,30 @@ def live_pieces(vehicle, title, namespace, over):
     live = LivePoses(vehicle, [sensor.name for sensor in log.sensors], mounts, namespace)
     try:
         yield binary.read(flush=True)
-        ended = False
-        while not ended:
-            ended = over()  # what had come by then is still shown
-            live.look(_PIECE)
+        end = inf
+        while True:
+            if over():
+                end = min(end, time.monotonic() + _LAST)  # what had come by then is still shown
+            came = live.look(_PIECE)
             if live.frames:
                 _write(stream, log, live, accelerations)
                 yield binary.read(flush=True)
+            if end < inf and (not came or time.monotonic() > end):
+                break
     finally:
         live.close()
 
 
 def _write(stream, log, live, accelerations):
+    roads, live.roads = live.roads, []
+    for stamp, corners, colours in roads[-1:]:
+        log.road_now(stamp, corners, (255 * np.clip(colours, 0.0, 1.0)).astype(np.uint8))
+    frames, live.frames = live.frames, []
+    times, poses = np.array([each.time for each in frames]), [each.pose for each in frames]
+    current, force = (np.stack([getattr(each, name) for each in frames]) for name in ("current", "force"))
+    log.frames(times, poses)
+    log.mount_frames(times, poses, current, force)
     for sensor in log.sensors:
+        log.sensor_frames(sensor.name, times, np.stack([each.specific_force[sensor.name] for each in frames]))
         accelerations.add(sensor.name, *live.take_sensor(sensor.name))
     add_mounts(stream, log.mounts.names, *live.take_mounts())
-    frames, live.frames = live.frames, []
-    roads, live.roads = live.roads, []
-    for time, corners, colours in roads[-1:]:
-        log.road_now(time, corners, (255 * np.clip(colours, 0.0, 1.0)).astype(np.uint8))
-    if not frames:
-        return
-    time, poses = np.array([each.time for each in frames]), [each.pose for each in frames]
-    current, force = (np.stack([getattr(each, name) for each in frames]) for name in ("current", "force"))
-    log.frames(time, poses)
-    log.mount_frames(time, poses, current, force)
-    for sensor in log.sensors:
-        log.sensor_frames(sensor.name, time, np.stack([each.specific_force[sensor.name] for each in frames]))
