@@ -99,7 +99,7 @@ def test_simulator_killed_and_restarted(start_node, observer, tmp_path):
     again = start_node("simulator", duration=0.5, speed=12.0, wait_for_recorder=True, answer_timeout=UNHURRIED)
     assert again.wait() == 0, again.output
     assert counted(again) == {"accepted": 500}
-    assert "the samples start anew: law reset" in controller.output
+    assert "the sample stamps start again: law reset" in controller.output
     recorder.signal(signal.SIGINT)
     assert recorder.wait() == 0, recorder.output
     drive = read_recording(tmp_path / "bag_epoch_2")

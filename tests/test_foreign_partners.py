@@ -44,10 +44,10 @@ def test_the_player_plays_what_it_can(start_node, observer, tmp_path):
     assert heard == imus(stamps(200).tolist())
     for words in (
         "/gnss is left out: message type some_vendor_msgs/msg/Heading is not installed",
-        "/add/_service_event is left out: example_interfaces/srv/AddTwoInts_Event is no message type",
+        "/add/_service_event is left out: example_interfaces/srv/AddTwoInts_Event is not a message type",
         "/broken is left out: definition of std_msgs/msg/String cannot be read",
         "/json is left out: its messages are in 'json'",
-        "/chassis/imu is left out: std_msgs/msg/String is its second type",
+        "/chassis/imu is left out: std_msgs/msg/String is a second type on this topic",
     ):
         assert player.output.count(words) == 1, player.output
 
@@ -144,4 +144,4 @@ def test_a_file_of_parameters_for_many_nodes(start_node, tmp_path):
     controller.wait_for("law 'skyhook', waiting for accelerations")
     assert controller.output.count("these are no parameters of it: gain.upper, speed") == 1
     nested = start_node("controller", "--ros-args", "--params-file", own, "-r", "__ns:=/lab", "--")
-    assert nested.wait() == 2 and "there is no parameter 'speed'" in nested.output
+    assert nested.wait() == 2 and "unknown parameter 'speed'" in nested.output

@@ -179,7 +179,7 @@ def _far_away(data):
 
 @pytest.mark.parametrize(
     ("lost", "which", "words"),
-    [("/diagnostics", _late, "the simulator's last word"), ("/road_profile", _far_away, "road_profile from")],
+    [("/diagnostics", _late, "the simulator's final diagnostics"), ("/road_profile", _far_away, "road_profile from")],
 )
 def test_a_bag_that_lacks_what_comes_rarely(edited, lost, which, words):
     """Without its last word a simulator's counts tell nothing; without road no replay gets there."""

@@ -84,7 +84,7 @@ def test_bad_parameter_is_refused_by_name(start_node, tmp_path, name, parameters
         ("recorder", ("--ros-args", "-p", "bag"), "parameter override rule: '-p bag'"),
         ("one_process", ("--ros-args", "-r", "__ns:=bad"), "remap rule: '-r __ns:=bad'"),
         ("player", ("--ros-args", "--params-file", "/nowhere"), "params file: '--params-file /nowhere'"),
-        ("simulator", ("--ros-args", "-p", "vehicle_file:=\udcff"), "is no text in UTF-8"),
+        ("simulator", ("--ros-args", "-p", "vehicle_file:=\udcff"), "is not UTF-8 text"),
     ],
 )
 def test_bad_argument_is_refused_in_one_line(start_node, name, arguments, words):
@@ -159,7 +159,7 @@ def test_names_can_be_remapped_into_a_namespace(start_node, tmp_path):
 def test_what_a_node_is_told_is_shown_as_signs(start_node, tmp_path):
     """What it waits for and where it records never move the cursor."""
     recorder = start_node("recorder", pattern=r'"\x1bred"', bag=rf'"{tmp_path}/ba\x1bg"')
-    recorder.wait_for(r"topics like '\x1bred'")
+    recorder.wait_for(r"topics matching '\x1bred'")
     recorder.signal(signal.SIGINT)
     assert recorder.wait() == 0, recorder.output
     assert r"ba\x1bg" in recorder.output and "\x1b" not in recorder.output

@@ -91,7 +91,7 @@ def test_both_are_shown(start_cli, recorded_run, rerun, tmp_path):
     assert np.std(after - before) > 0.1 * np.std(before)  # levels of so short a drive may come out alike
     for number in (f"{old:.3f}", f"{new:.3f}", f"{100.0 * (new / old - 1.0):+.1f} %"):
         assert number in replay.output
-    assert "driven to the recorded end" in replay.output
+    assert "ran to the end of the recording" in replay.output
     assert (tmp_path / "out" / "replay.png").read_bytes().startswith(b"\x89PNG")
     again = start_cli("replay", recorded_run / "bag", "--law", "passive", "--out", tmp_path / "out")
     assert again.wait() == 1 and "exists already" in again.output

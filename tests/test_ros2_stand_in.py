@@ -81,7 +81,7 @@ def test_reading_verbs(loop, ros2):
     part = ros2(["topic", "echo", "--once", "/odometry", "--field", "pose.covariance[0]"])
     assert part == "0.0\n---\n"
     trigger = ros2(["service", "call", "/simulator/step", "std_srvs/srv/Trigger"], "response:\n")
-    assert "std_srvs.srv.Trigger_Response(success=True, message='one period on, from t = " in trigger
+    assert "std_srvs.srv.Trigger_Response(success=True, message='one period, from t = " in trigger
 
 
 @SLOW

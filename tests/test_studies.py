@@ -176,7 +176,7 @@ def test_a_lost_cluster_ends_the_study_in_one_line(table1, scheduler, tmp_path):
     wait_until(lambda: finished(tmp_path / "table1"), run)
     os.kill(process.pid, signal.SIGKILL)
     assert run.wait() == 1
-    assert "error: the Dask scheduler is gone" in run.output and "Traceback" not in run.output
+    assert "error: the connection to the Dask scheduler is lost" in run.output and "Traceback" not in run.output
     assert 0 < len(finished(tmp_path / "table1")) < 4
 
 

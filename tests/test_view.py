@@ -97,8 +97,8 @@ def test_saved_recording(view, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("--start", 2.0, "--end", 1.0), "nothing of the bag lies from 2 to 1 s: it tells of 0.001 to 3.2 s"),
-        (("--start", 50.0), "nothing of the bag lies from 50 to inf s"),
+        (("--start", 2.0, "--end", 1.0), "the bag holds nothing from 2 to 1 s: it tells of 0.001 to 3.2 s"),
+        (("--start", 50.0), "the bag holds nothing from 50 to inf s"),
         (("--gif", "a.gif", "--rate", 1000.0, "--start", 2.5), "accepted in a picture are 400"),
         (("--gif", "a.gif", "--save", "a.rrd"), "only one of --save and --gif"),
         (("--rate", 0.1), "not in the range"),
@@ -192,7 +192,7 @@ def test_run_is_shown_while_it_goes_on(start_cli, view, tmp_path):
             pieces[-1].write_bytes(data)
         connection.close()
     assert len(pieces) > 2
-    run.wait_for("left in")
+    run.wait_for("written to")
     run.signal(signal.SIGINT)
     assert run.wait() == 0 and run.output.endswith("the view has ended\n"), run.output
 

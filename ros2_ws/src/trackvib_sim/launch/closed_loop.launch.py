@@ -17,9 +17,9 @@ PACKAGES = {"controller": "mr_mount_controller"}  # of executables that are not 
 FOUR_PROCESSES = ("road_excitation", "controller", "recorder", "simulator")
 ONE_PROCESS = ("recorder", "one_process")
 FURTHER = {
-    "params_file": ("", "Parameter file for any of the nodes, where no argument is given."),
-    "namespace": ("/", "Namespace of the whole vehicle, its clock included."),
-    "one_process": ("false", "Simulator, road and controller in one process: the same results, sooner."),
+    "params_file": ("", "Parameter file for any of the nodes; arguments take precedence."),
+    "namespace": ("/", "Namespace of the whole vehicle, including its clock."),
+    "one_process": ("false", "Run simulator, road and controller in one process: same results, faster."),
     "bag": ("", "Folder of the bag; empty for bag_<date and time>."),
 }
 

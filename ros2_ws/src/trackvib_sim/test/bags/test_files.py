@@ -84,7 +84,7 @@ def test_a_split_of_which_nothing_was_written(split, name, content):
     (split / name).write_bytes(content)
     recording = read_recording(split)
     assert recording.counts["/chassis/imu"] == 20
-    assert recording.notes == (f"empty or no MCAP, left out: {name} (`trackvib bag repair` sets it aside)",)
+    assert recording.notes == (f"empty or not MCAP, left out: {name} (`trackvib bag repair` renames it)",)
     done = repair(split)
     assert [(file.file.name, file.flaw, file.original.name) for file in done.files] == [
         (name, NO_MCAP, f"{name}.damaged")
@@ -100,7 +100,7 @@ def test_a_bag_of_nothing_is_refused(split):
         (split / name).write_bytes(b"")
     with pytest.raises(BagError, match="split' cannot be read"):
         read_recording(split)
-    with pytest.raises(BagError, match=rf"{SPLITS[0]}' is no MCAP file"):
+    with pytest.raises(BagError, match=rf"{SPLITS[0]}' is not an MCAP file"):
         repair(split)
     assert all((split / name).exists() for name in SPLITS)
 

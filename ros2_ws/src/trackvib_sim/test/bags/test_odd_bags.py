@@ -99,7 +99,7 @@ def test_a_damaged_chunk_is_named_with_the_way_out(bag, tmp_path):
     data = bytearray(next(bag.glob("*.mcap")).read_bytes())
     data[len(data) // 2] ^= 1
     (tmp_path / "bag_0.mcap").write_bytes(data)
-    with pytest.raises(BagError, match="damaged at byte .*bag repair` keeps all else"):
+    with pytest.raises(BagError, match="damaged at byte .*bag repair` keeps everything else"):
         read_recording(tmp_path)
 
 

@@ -31,7 +31,7 @@ def parameters(tmp_path):
 
 @pytest.mark.property
 def test_the_last_counts(parameters):
-    """Of sections in one file, of files, and of values one by one; sections for others are passed over."""
+    """Of sections in one file, of files, and of values one by one; sections for others are skipped."""
     names = ("speed", "seed", "duration", "gears")
     assert [parameters.get("simulator", name) for name in names] == [2.0, 3, 10.0, True]
     assert [parameters.get("road", name) for name in ("speed", "seed", "inner.left")] == [2.0, 5, 4]

@@ -68,7 +68,7 @@ def test_columns_and_units_are_named(file, text, left, right):
         (GOOD + "9,0,0\n", "a gap of 8.8 m from 0.2 m on"),
         (GOOD + "0.3,400,0\n", "left rises by 400 m.*is the unit right"),
         ("distance_m,height_m\n0,0\n", "1 samples"),
-        (b"distance_m,height_m\n0,\xff\n", "is no text in UTF-8: it has a byte 0xff"),
+        (b"distance_m,height_m\n0,\xff\n", "is not UTF-8 text: it has a byte 0xff"),
         ("distance_m,height_m\n0,0\n0.1,1e400\n", "left height of sample 2 is inf"),
         ("distance_km,height_km\n0,0\n1e-4,1e308\n", "left height of sample 2 is inf"),
         ("distance_m,height_m\n-1e308,0\n1e308,0\n", "a gap of inf m"),

@@ -60,7 +60,7 @@ def _measure(choices, settling, folder, console, interrupt):
     except (BagError, ValueError) as error:
         raise interrupt or CommandError(str(error)) from None
     if lacking:
-        raise CommandError(f"the bag in {str(folder)!r} is not complete, it lacks {', '.join(lacking)}") from interrupt
+        raise CommandError(f"the bag in {str(folder)!r} is not complete, {', '.join(lacking)} missing") from interrupt
     if interrupt is not None:
         raise interrupt
 
@@ -78,7 +78,7 @@ def _run_nodes(processes, choices, parameters, folder, console):
     if interrupted is None and any(codes.values()):
         name = next(name for name in (*first, *codes) if codes[name])
         said = processes.last_words(name)
-        raise CommandError(_ending(name, codes[name], folder) + (f"; it said:\n{said}" if said else ""))
+        raise CommandError(_ending(name, codes[name], folder) + (f"; its last output:\n{said}" if said else ""))
     return interrupted
 
 
@@ -86,7 +86,7 @@ def _ending(name, code, folder):
     """Return in words how a process ended."""
     if code > 0:
         return f"'{name}' ended with exit code {code}"
-    words = f"'{name}' was ended by {signal.Signals(-code).name}"
+    words = f"'{name}' was terminated by {signal.Signals(-code).name}"
     if name == "recorder":
         words += f"; `trackvib bag repair {folder / 'bag'}` completes what it had recorded"
     return words

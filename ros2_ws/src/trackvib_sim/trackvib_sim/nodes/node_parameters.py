@@ -29,8 +29,7 @@ def full_namespace(name):
     """
     if not _NAMESPACE.fullmatch(name) or len(name) > _LONGEST:
         raise ParameterError(
-            f"namespace is {name!r}, accepted are at most {_LONGEST} letters, digits and _, in parts with a slash "
-            "between that begin with no digit"
+            f"namespace is {name!r}, accepted are at most {_LONGEST} letters, digits and _, in parts separated by slashes that do not begin with a digit"
         )
     return f"/{name.lstrip('/')}"
 

@@ -63,7 +63,7 @@ def _placed(found, bodies):
             break
         new = [name for name, (parent, *_) in found.items() if parent in row and name not in row]
         if not new:
-            raise ValueError("frames that do not hang together")
+            raise ValueError("frames that are not connected")
         parents, places, turns = zip(*(found[name] for name in new), strict=True)
         below = [row[name] for name in parents]
         place = np.concatenate((place, place[below] + turn[below].apply(places)))

@@ -74,7 +74,7 @@ def test_a_file_becomes_a_schedule():
         ("points: [{at: 1e9, speed: 1}]", "at"),
         ("points: [{at: 0, speed: 26}]", "speed is 26.0 m/s, accepted is -25 to 25 m/s"),
         ("points: [{at: 0, speed: 5, curvature: 0.2}]", "curvature is 0.2 1/m, accepted is -0.1 to 0.1 1/m"),
-        ("points: [{at: 0, speed: -5, curvature: 0.05}]", "backwards only 0 is accepted"),
+        ("points: [{at: 0, speed: -5, curvature: 0.05}]", "accepted in reverse is 0"),
         ("points: [{at: 0, speed: 1}, {at: 0, speed: 2}]", "point 2: at is 0, must be above 0"),
         ("points: [{at: 2, speed: 1}, {at: 1, speed: 2}]", "point 2: at is 1, must be above 2"),
         ("points: [{at: 0, speed: 1, engine_speed: 900}, {at: 1, speed: 2}]", "1 of 2 points have an engine_speed"),
