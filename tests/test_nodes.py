@@ -50,7 +50,7 @@ def test_waits_and_ends_cleanly(start_node, tmp_path, name, number):
         ("controller", {"law": "json:JSONDecoder"}, ["'law'", "json:JSONDecoder", "ControlLaw"]),
         ("controller", {"law": "skyhook", "firm_current": 9.0}, ["'firm_current'", "9.0", "0.7 to 4 A"]),
         ("controller", {"law": "hybrid", "soft_current": 2.0, "firm_current": 1.0}, ["'soft_current'", "2.0", "1 A"]),
-        ("recorder", {"bag": "/proc/none/bag"}, ["/proc/none/bag", "cannot be made"]),
+        ("recorder", {"bag": "/proc/none/bag"}, ["/proc/none/bag", "cannot be created"]),
         ("recorder", {"topics": "['bad topic']"}, ["'topics'", "bad topic"]),
         ("recorder", {"pattern": "'['"}, ["'pattern'", "'['", "regular expressions"]),
         ("recorder", {"compression": "gzip"}, ["'compression'", "'gzip'", "zstd, none"]),
@@ -106,7 +106,7 @@ def test_help_tells_all_and_starts_nothing(fork, observer):
             "mount_state  (trackvib_msgs/msg/MountState, 1 kHz)",
             "/pause",
         ),
-        "road_excitation": ("seed:=1\n", "road_excitation listens to:\n  drive_state"),
+        "road_excitation": ("seed:=1\n", "road_excitation subscribes to:\n  drive_state"),
         "recorder": ("chunk_size:=1024\n", "from 16 to 65536 KiB"),
         "player": ("rate:=1.0\n", "player/reset  (std_srvs/srv/Trigger)"),
         "controller": ("sample_rate:=1000.0\n", "with law:=skyhook, may change while it runs:\n  soft_current:=0.8"),
@@ -171,5 +171,5 @@ def test_existing_bag_is_not_overwritten(start_node, tmp_path):
     (tmp_path / "bag" / "kept").write_text("precious")
     recorder = start_node("recorder", bag=tmp_path / "bag")
     assert recorder.wait() != 0
-    assert "exists already" in recorder.output
+    assert "already exists" in recorder.output
     assert [path.name for path in (tmp_path / "bag").iterdir()] == ["kept"]

@@ -70,7 +70,7 @@ def test_states_steps_and_entities(simulator, call):
     assert len(call(GetSimulatorFeatures, "get_simulator_features").features.features) == 8
     assert call(GetSimulationState, "get_simulation_state").state.state == PLAYING
     refused = call(StepSimulation, "step_simulation").result
-    assert refused.result == Result.RESULT_OPERATION_FAILED and "not paused" in refused.error_message
+    assert refused.result == Result.RESULT_OPERATION_FAILED and "steps need a paused run" in refused.error_message
     set_state = lambda number: call(SetSimulationState, "set_simulation_state", **state(number)).result.result  # noqa: E731
     assert set_state(PAUSED) == Result.RESULT_OK
     assert set_state(PAUSED) == SetSimulationState.Response.ALREADY_IN_TARGET_STATE

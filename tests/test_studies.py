@@ -93,7 +93,7 @@ def test_goes_on_where_it_was_interrupted(table1, tmp_path):
     assert run.wait() == 130
     kept = finished(folder)
     assert 0 < len(kept) < 4, "it was not interrupted midway"
-    assert f"interrupted; finished runs are kept in {folder}, the same command goes on from there" in run.output
+    assert f"interrupted; finished runs are kept in {folder}, the same command continues from there" in run.output
     assert "Traceback" not in run.output
     assert [path.name for path in folder.iterdir()] == ["cases"]
     again = table1(*SMALL, "--out", folder)

@@ -177,8 +177,8 @@ class ControllerNode(LoopNode):
         if not self._missed:
             self._missed = True
             self.get_logger().warning(
-                f"accelerations arrive, but no node publishes on {MOUNT_DESCRIPTION} how many coils there are; where nobody "
-                "does, parameter coils does"
+                f"accelerations arrive, but no node publishes {MOUNT_DESCRIPTION} with the number of coils; "
+                "without it, set parameter coils"
             )
 
     def _check_step(self, step):
@@ -207,8 +207,8 @@ class ControllerNode(LoopNode):
 
     def _clash(self, step):
         raise NodeError(
-            f"samples arrive {step / NANO} s apart ({NANO / step:g} Hz), sample_rate is {self.settings['sample_rate']:g} "
-            "Hz: the two rates conflict"
+            f"samples arrive {step / NANO} s apart ({NANO / step:g} Hz), sample_rate is "
+            f"{self.settings['sample_rate']:g} Hz: the two rates conflict"
         )
 
     def _wait_for_listeners(self):

@@ -38,7 +38,7 @@ def test_a_description_comes_back(coils, pads):
 @pytest.mark.parametrize(
     ("mounts", "words"),
     [
-        ([("a", 0, (0.0,) * 3)] * 2, "mounts are called a, a, accepted are names that differ"),
+        ([("a", 0, (0.0,) * 3)] * 2, "mount names are a, a, must be unique"),
         ([("", 0, (0.0,) * 3)], "a mount is called '', accepted are 1 to 64 characters"),
         ([("a\nb", 0, (0.0,) * 3)], r"a mount is called 'a\\nb'"),
         ([("n" * 65, 0, (0.0,) * 3)], "accepted are 1 to 64 characters"),

@@ -1,5 +1,6 @@
 """Starts the nodes of a closed loop and ends them all when the simulator is done."""
 
+import sys
 import tempfile
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from launch.event_handlers import OnProcessExit, OnShutdown
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 from mr_mount_controller.node_base.parameters import ParameterError
+from mr_mount_controller.node_base.plain_text import plain_line
 from trackvib_sim.nodes.loop_arguments import ARGUMENTS, RECORDER, argument_from_text, loop_parameters
 from trackvib_sim.nodes.node_parameters import full_namespace
 from trackvib_sim.vehicle.vehicle_file import VehicleFileError
@@ -46,6 +48,8 @@ def _start(context):
         raise RuntimeError(str(error)) from None
     if told["bag"]:
         parameters.give(RECORDER, bag=told["bag"])
+    for note in parameters.notes:
+        print(f"warning: {plain_line(note)}", file=sys.stderr)
     folder = tempfile.TemporaryDirectory(prefix="trackvib_")
     file = Path(folder.name) / "parameters.yaml"
     parameters.write(file)

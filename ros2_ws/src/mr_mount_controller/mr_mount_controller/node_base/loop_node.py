@@ -17,7 +17,7 @@ from rclpy.signals import SignalHandlerOptions
 from .descriptors import descriptor_of
 from .help_text import help_text, wants_help
 from .listener import Listener
-from .parameter_files import given_by_wildcard
+from .parameter_files import given_by_wildcard, without_effect
 from .parameters import Parameter, ParameterError
 from .patience import Patience
 from .plain_text import plain_line, readable
@@ -236,6 +236,8 @@ def run_node(make_node, args=None, companions=()):
             nodes[-1].refuse_unknown_parameters(arguments)
             nodes[-1].prepare(lambda timeout: executor.spin_once(timeout_sec=timeout), lambda: bool(stop))
             executor.add_node(nodes[-1])
+        for words in without_effect(arguments, [node.get_fully_qualified_name() for node in nodes]):
+            nodes[-1].get_logger().warning(plain_line(words))
         try:
             nodes[-1].run()
         finally:

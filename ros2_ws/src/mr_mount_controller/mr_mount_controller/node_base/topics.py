@@ -239,6 +239,7 @@ TOPICS = (
         DIAGNOSTICS_TYPE,
         "simulator",
         "10 Hz",
-        "State and epoch, actual currents, pace, late and rejected answers, saturation, time per part of a period, energy balance of the mounts.",
+        "State and epoch, actual currents, pace, late and rejected answers, saturation, "
+        "time per part of a period, energy balance of the mounts.",
     ),
 )

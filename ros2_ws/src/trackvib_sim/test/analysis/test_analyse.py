@@ -79,7 +79,7 @@ def test_what_is_missing_is_said():
     assert found.sensors == analyse(whole, 2.0).sensors
     assert (found.mounts, found.demand, found.lines, found.mount_energy) == ({}, {}, (), None)
     assert np.isnan([found.speed, found.engine_speed]).all() and np.isnan(found.history.current).all()
-    for words in ("no odometry", "engine's speed", "no vehicle description", "no mount_state", "no coil_current"):
+    for words in ("no odometry", "no engine speed", "no vehicle description", "no mount_state", "no coil_current"):
         assert sum(words in note for note in found.notes) == 1, words
     assert (found.loop["unanswered"], found.loop["answered_twice"]) == (None, None)
     early = whole._replace(odometry=type(whole.odometry)(*(column[:100] for column in whole.odometry)))

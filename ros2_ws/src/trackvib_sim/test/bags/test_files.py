@@ -40,7 +40,7 @@ def test_the_list_in_the_metadata_counts(split):
     assert names(split) == list(SPLITS)
     recording = read_recording(split)
     assert recording.counts["/chassis/imu"] == 40
-    assert recording.notes == ("not among the files that metadata.yaml lists, left out: recovered.mcap",)
+    assert recording.notes == ("not listed in metadata.yaml, left out: recovered.mcap",)
     assert contents(split).notes == recording.notes
 
 
@@ -59,7 +59,7 @@ def test_files_that_were_renamed_are_found(split):
     (split / SPLITS[0]).rename(split / "y.mcap")
     found = find_files(split)
     assert [file.name for file in found.files] == ["y.mcap", "z.mcap"] and found.beside == []
-    assert found.notes == (f"listed by metadata.yaml, not there: {SPLITS[0]}, {SPLITS[1]}",)
+    assert found.notes == (f"listed in metadata.yaml, missing: {SPLITS[0]}, {SPLITS[1]}",)
 
 
 def test_a_list_leads_nowhere_else(split, tmp_path):

@@ -163,7 +163,7 @@ def test_channels_without_a_definition_are_counted(bag, rewritten):
     recording = read_recording(rewritten(bag, more=log))
     np.testing.assert_array_equal(recording.chassis.stamp, read_recording(bag).chassis.stamp)
     assert (recording.counts["/log"], recording.counts["/other/chassis/imu"]) == (1, 1)
-    with pytest.raises(BagError, match="which nothing announces"):
+    with pytest.raises(BagError, match="which is not declared"):
         read_recording(rewritten(bag, more=lambda writer: log(writer, 99)))
 
 

@@ -185,7 +185,7 @@ def test_nothing_is_overwritten(sound, copy):
     data = sound.data[:-50]
     (copy / NAME).write_bytes(data)
     (copy / f"{NAME}.damaged").write_bytes(b"precious")
-    with pytest.raises(BagError, match="exists already"):
+    with pytest.raises(BagError, match="already exists"):
         repair(copy)
     assert (copy / f"{NAME}.damaged").read_bytes() == b"precious" and (copy / NAME).read_bytes() == data
 

@@ -38,6 +38,19 @@ def test_the_last_counts(parameters):
     assert parameters.get("road", "duration", 7.0) == 7.0
 
 
+@pytest.mark.property
+def test_sections_for_no_node_are_named(parameters, tmp_path):
+    """Once, with the nodes that there are; a file with no others is refused."""
+    words = "has sections for /other/simulator, but the nodes here are /lab/simulator, /lab/road"
+    assert [note.split("' ", 1)[1] for note in parameters.notes] == [words]
+    (tmp_path / "nested").write_text("right: {simulator: {ros__parameters: {speed: 3.0}}}")
+    with pytest.raises(
+        ParameterError, match="nested' has sections for /right/simulator, but the nodes here are /lab/s"
+    ):
+        parameters.read(tmp_path / "nested")
+    assert parameters.get("simulator", "speed") == 2.0
+
+
 @pytest.mark.cross_engine
 def test_ros_reads_the_same(parameters, tmp_path):
     """Real nodes, told the file that is written, have these values and types; what came by wildcards is still known."""

@@ -21,7 +21,8 @@ _ALIGNMENTS = ("auto", "speed", "distance", "none")
     type=click.Choice(_ALIGNMENTS),
     default="auto",
     show_default=True,
-    help="Compare what was driven at the same speed, or at the same distance along the way; auto: by speed where both contain it (odometry or satellite fixes), else statistics of all that counts.",
+    help="Compare what was driven at the same speed, or at the same distance along the way; auto: by speed where "
+    "both contain it (odometry or satellite fixes), else statistics of all that counts.",
 )
 @interval_option
 @speed_band_option

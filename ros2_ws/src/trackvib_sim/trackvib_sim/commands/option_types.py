@@ -41,7 +41,8 @@ def largest_chunk_option(command):
         metavar="MIB",
         expose_value=False,
         callback=lambda _context, _parameter, value: largest_chunk.set(value),
-        help="Largest size in MiB of a decompressed chunk, or of any other record, of a bag; a bag with a larger one is refused.",
+        help="Largest size in MiB of a decompressed chunk, or of any other record, of a bag; a bag with a larger one "
+        "is refused.",
     )(command)
 
 

@@ -93,7 +93,8 @@ def _replay(recording, stock, law, writer, replayed, folder, console):
         check, last_words = stack.enter_context(_controller(stock, law, values, _rate(samples.stamp), folder))
         trial = stack.enter_context(ControllerTrial(recording.mounting))
         if law is None:
-            console.print(f"waiting for a controller that subscribes to {CHASSIS_IMU} or {POWERTRAIN_IMU} and answers on "
+            console.print(f"waiting for a controller that subscribes to {CHASSIS_IMU} or {POWERTRAIN_IMU} and "
+            "answers on "
                           f"{COIL_CURRENT}", soft_wrap=True)  # fmt: skip
         trial.wait_for_controller(check)
         writer.add_topic(REPLAYED, COIL_CURRENT_TYPE, [qos_record(LOOP_WRITER_QOS)], trial.type_hash())

@@ -45,6 +45,8 @@ def run_loop(choosing, out, viewing=lambda _choices, _vehicle: nullcontext()):
                 (folder / "log").mkdir()
             parameters.give(RECORDER, bag=str(folder / "bag"))
             console.print(f"closed loop: {choices.title}")
+            for note in parameters.notes:
+                console.print(f"warning: {note}", soft_wrap=True)
             if choices.physics_rate < (least := recommended_rate(vehicle)):
                 console.print(f"warning: --physics-rate {choices.physics_rate} is below the recommended {least} Hz")
             interrupt = _run_nodes(processes, choices, parameters, folder, console)
@@ -60,7 +62,7 @@ def _measure(choices, settling, folder, console, interrupt):
     except (BagError, ValueError) as error:
         raise interrupt or CommandError(str(error)) from None
     if lacking:
-        raise CommandError(f"the bag in {str(folder)!r} is not complete, {', '.join(lacking)} missing") from interrupt
+        raise CommandError(f"the bag in {str(folder)!r} is not complete: {', '.join(lacking)} missing") from interrupt
     if interrupt is not None:
         raise interrupt
 

@@ -26,7 +26,8 @@ _OPTIONS = (
         "--rotate",
         metavar="[NAME=]R,P,Y",
         multiple=True,
-        help="Roll, pitch and yaw in degrees of a sensor relative to the vehicle (x forward, y left, z up), or of all sensors that are not named.  [default: from the bag's /tf_static]",
+        help="Roll, pitch and yaw in degrees of a sensor relative to the vehicle (x forward, y left, z up), or of "
+        "all sensors that are not named.  [default: from the bag's /tf_static]",
     ),
     click.option(
         "--gravity",

@@ -22,7 +22,6 @@ from visualization_msgs.msg import Marker, MarkerArray
 from ..numerics.units import NANO
 from ..scene.pose_messages import PoseAssembly
 
-
 _QOS = QoSProfile(depth=10_000)  # some seconds of samples, as a view that draws is slow for a moment
 _MOUNTS = ""  # no sensor has that name
 _REST = 0.02  # s between looks; waking for every message would take the processor from the loop

@@ -199,7 +199,8 @@ class PlayerNode(LoopNode):
         if connection.topic not in self._misfits:
             self._misfits.add(connection.topic)
             self.get_logger().warning(
-                f"a message on {connection.topic} is left out, it does not match {connection.type_name}: {error}; further ones are counted only"
+                f"a message on {connection.topic} is left out, it does not match {connection.type_name}: {error}; "
+                "further ones are counted only"
             )
 
     def _wait_until(self, stamp):

@@ -41,13 +41,15 @@ PARAMETERS = (
     Parameter(
         "bag",
         "",
-        "Folder of the bag; empty for bag_<date and time> in the working directory. Each further epoch is written to a separate bag, <bag>_epoch_2 and so on.",
+        "Folder of the bag; empty for bag_<date and time> in the working directory. Each further epoch is written to "
+        "a separate bag, <bag>_epoch_2 and so on.",
     ),
     Parameter("topics", DEFAULT_TOPICS, "Topics to record; recording starts when all of them exist. [''] for none."),
     Parameter(
         "pattern",
         "",
-        "Regular expression for further topics in the recorder's namespace, which are recorded as soon as they appear. It is searched in the name without the namespace, such as `/chassis/imu`.",
+        "Regular expression for further topics in the recorder's namespace, which are recorded as soon as they "
+        "appear. It is searched in the name without the namespace, such as `/chassis/imu`.",
     ),
     Parameter("compression", "zstd", "Compression of the chunks of the bag.", choices=tuple(COMPRESSIONS)),
     Parameter("chunk_size", 1024, "Chunk size before compression.", "KiB", 16, 65536),

@@ -94,7 +94,8 @@ def prepare(values):
     for name in ("view_rate", "measure_rate"):
         if values[name] and values["control_rate"] % values[name]:
             raise ParameterError(
-                f"simulator: control_rate {values['control_rate']} Hz and {name} {values[name]} Hz conflict: the first must be a multiple of the second"
+                f"simulator: control_rate {values['control_rate']} Hz and {name} {values[name]} Hz conflict: the "
+                "first must be a multiple of the second"
             )
     return simulation_of(vehicle, values, drive), usable_current(vehicle), text, drive
 

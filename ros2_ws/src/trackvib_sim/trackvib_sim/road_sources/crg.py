@@ -214,7 +214,7 @@ def _across(head, sections, name):
         return np.array(places)
     step, right, left = (values.get(f"long_section_v_{what}") for what in ("increment", "right", "left"))
     if not sections or step is None or not step > 0.0:
-        raise ProfileError(f"{name} does not give the positions of its {len(sections)} long sections lie")
+        raise ProfileError(f"{name} does not give the positions of its {len(sections)} long sections")
     if right is None:
         right = -0.5 * step * (len(sections) - 1) if left is None else left - step * (len(sections) - 1)
     return right + step * np.arange(len(sections))

@@ -75,7 +75,8 @@ class DrivelineParameters(Section):
             raise ValueError(f"ratios are {self.ratios}, each must be below the one before")
         if len(self.curve_speed) < 2 or len(self.curve_speed) != len(self.curve_torque):
             raise ValueError(
-                f"curve_speed has {len(self.curve_speed)} numbers and curve_torque {len(self.curve_torque)}, must have equal numbers, at least 2"
+                f"curve_speed has {len(self.curve_speed)} numbers and curve_torque {len(self.curve_torque)}, must "
+                "have equal numbers, at least 2"
             )
         if any(high <= low for low, high in pairwise(self.curve_speed)):
             raise ValueError(f"curve_speed is {self.curve_speed}, each must be above the one before")

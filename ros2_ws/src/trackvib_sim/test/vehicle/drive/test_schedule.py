@@ -129,7 +129,7 @@ def test_a_csv_file_becomes_the_same_schedule(tmp_path, text, by_distance, at, s
         ("time_s,speed_mps\n0,nan\n", "speed"),
         ("time_s,speed_mps\n0,1e999\n", "speed"),
         ("time_s,speed_mps\n1,5\n0,5\n", "point 2: at is 0, must be above 1"),
-        ("time_s,speed_mps,speed_kmh\n0,5,5\n", "two columns are called speed"),
+        ("time_s,speed_mps,speed_kmh\n0,5,5\n", "two columns are named speed"),
     ],
 )
 def test_a_bad_csv_file_is_refused(tmp_path, text, words):
