@@ -182,7 +182,8 @@ class StandardServices:
 
     async def _reset_simulation(self, request, response):
         if request.scope and request.scope & _TOGETHER != _TOGETHER:
-            told = f"scope is {request.scope}, accepted are 0, {_TOGETHER} and 255: time and state begin anew together"
+            # a jump of one alone would tear path, drive and recording apart, and no replay could follow
+            told = f"scope is {request.scope}, accepted are 0, {_TOGETHER} and 255: time and state are reset together"
             response.result = _failed(told, Result.RESULT_FEATURE_UNSUPPORTED)
         elif not self._control.begun:
             response.result = _failed("the run has not started", Result.RESULT_INCORRECT_STATE)
