@@ -23,7 +23,7 @@ def main(folder, port):
     else:
         place = Path(folder).absolute()
         if place.exists():  # MkDocs would empty it
-            raise click.ClickException(f"{folder!r} exists already; nothing is overwritten, choose another --build")
+            raise click.ClickException(f"{folder!r} already exists; nothing is overwritten, choose another --build")
         command += ["build", "--site-dir", str(place)]
     # the theme's authors advertise their next generator on every start
     env = dict(os.environ, NO_MKDOCS_2_WARNING="1")

@@ -23,11 +23,11 @@ class Extra(NamedTuple):
 
 
 STUDIES = Extra("studies", "the independent engine", (3, 10))
-TESTS = Extra("tests", "what runs and checks the tests", (3, 10))
-GYM = Extra("gym", "the interface of environments to learn in", (3, 10))
+TESTS = Extra("tests", "the test tools", (3, 10))
+GYM = Extra("gym", "the interface of learning environments", (3, 10))
 FMU = Extra("fmu", "the packer of FMUs", (3, 10))
 VIEW = Extra("view", "the viewer", (3, 11))
-DOCS = Extra("docs", "the generator of the documents' site", (3, 10))
+DOCS = Extra("docs", "the generator of the documentation site", (3, 10))
 EXTRAS = (STUDIES, TESTS, GYM, FMU, VIEW, DOCS)
 _WHOLE = {"docs": (DOCS,), "fmu": (FMU,)}  # verbs that cannot do without
 

@@ -37,7 +37,7 @@ def usable(kernels: Path, environ) -> Path:
     try:
         return _copy(kernels, own_folder(environ))
     except OSError as error:
-        steps.say(f"no place for a copy of the compiled simulation ({error}); set TMPDIR to a folder of your own")
+        steps.say(f"no space for a copy of the compiled simulation ({error}); set TMPDIR to a folder of your own")
         return kernels
 
 

@@ -40,7 +40,7 @@ def only_one(lock: Path):
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            say("another set-up is at work in this checkout; waiting for it ...")
+            say("another set-up is running in this checkout; waiting for it ...")
             fcntl.flock(descriptor, fcntl.LOCK_EX)
         yield descriptor
     finally:

@@ -59,7 +59,7 @@ def require(python: Interpreter, log) -> None:
         line = f"apt-get update && {shlex.join(install)}"
         line = f"sudo sh -c '{line}'" if shutil.which("sudo") else f"su -c '{line}'"
         raise SetupError(
-            f"missing on this machine: {listed}. Nothing was done yet. Type this, then start again:\n{line}"
+            f"missing on this machine: {listed}. Nothing has been changed yet. Run this, then start again:\n{line}"
         )
     quiet = [*become_root, "env", "DEBIAN_FRONTEND=noninteractive"]
     with Task(f"installing with apt-get: {' '.join(packages)}", "about 1 min", log) as task:
@@ -88,7 +88,7 @@ def _missing(python: Interpreter) -> dict:
         if own:
             raise SetupError(
                 f"{python.path} came without {' and '.join(own)} (looked in {include}). "
-                "Install it anew with them, or start again with another Python: /usr/bin/python3 ./trackvib ..."
+                "Reinstall it with them, or start again with another Python: /usr/bin/python3 ./trackvib ..."
             )
     return missing
 

@@ -7,7 +7,7 @@ from matplotlib.image import imread
 
 SCATTER_OF_WORK = 0.2  # of the largest number in the account
 # lines of progress, pace and places
-OF_THE_MOMENT = ("finished", "runs ", "reading ", "measuring ", "pace:", "left in", "picture")
+OF_THE_MOMENT = ("finished", "runs ", "reading ", "measuring ", "pace:", "written to", "picture")
 BEYOND = "!"  # marks a number that is beyond its goal
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?%?")
 

@@ -37,12 +37,12 @@ def bag(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["missing", "--out", "new"], ["'missing' is not there"]),
+        (["missing", "--out", "new"], ["'missing' does not exist"]),
         (["empty", "--out", "new"], ["'empty' holds no .mcap file"]),
         (["text.mcap", "--out", "new"], ["'text.mcap' cannot be read"]),
         (["text.mcap", "empty/../text.mcap", "--out", "new"], ["'empty/../text.mcap' is given twice"]),
-        (["empty", "--out", "empty"], ["'empty' exists already"]),
-        (["empty", "--out", "text.mcap/new"], ["'text.mcap/new' cannot be made"]),
+        (["empty", "--out", "empty"], ["'empty' already exists"]),
+        (["empty", "--out", "text.mcap/new"], ["'text.mcap/new' cannot be created"]),
         (["empty", "--settle", "-1"], ["--settle", "-1"]),
         (["empty", "--interval", "0"], ["--interval", "0.0 is not in the range 1.0<=x"]),
         (["empty", "--speed-band", "nan"], ["--speed-band", "nan"]),
@@ -100,7 +100,7 @@ def test_brackets_in_a_path_are_printed(start_cli, tmp_path, bag):
     bag.rename(tmp_path / "runs[old]" / "drive")
     analyze = start_cli("analyze", "runs[old]/drive", "--out", "new[bold]")
     assert analyze.wait() == 0, analyze.output
-    assert "bag 1: runs[old]/drive: " in analyze.output and "left in new[bold]: " in analyze.output
+    assert "bag 1: runs[old]/drive: " in analyze.output and "written to new[bold]: " in analyze.output
 
 
 @SLOW

@@ -72,5 +72,5 @@ def test_nonsense_is_refused(command, tmp_path):
         for name in ("empty", "file", "nowhere"):
             code, output = command(verb, tmp_path / name)
             assert code != 0 and name in output and "Traceback" not in output, output
-    assert "is no MCAP file" in command("info", tmp_path / "file")[1]
+    assert "is not an MCAP file" in command("info", tmp_path / "file")[1]
     assert list((tmp_path / "empty").iterdir()) == []

@@ -57,7 +57,7 @@ def test_interrupted_and_continued_is_the_same_as_at_one_go(start_cli, tmp_path,
         time.sleep(0.02)
     process.signal(signal.SIGINT)
     assert process.wait() == 130, process.output
-    assert "the same command goes on" in process.output
+    assert "the same command continues" in process.output
     kept = lines(parts / "history.csv")[2:]
     assert 2 <= len(kept) < 9 and not (parts / "calibration.md").exists()
 

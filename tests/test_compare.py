@@ -74,9 +74,9 @@ def test_any_names_on_analyze(start_cli, tmp_path):
         (["--rotate", "1,2"], "'1,2', accepted is ROLL,PITCH,YAW"),
         (["--rotate", "nan,0,0"], "accepted is ROLL,PITCH,YAW"),
         (["--sensor", "seat"], "'seat', accepted is NAME=TOPIC"),
-        (["--sensor", "chassis=/a", "--chassis", "/b"], "'chassis' is told twice"),
+        (["--sensor", "chassis=/a", "--chassis", "/b"], "'chassis' is given twice"),
         (["--csv", "time_s"], "'time_s', accepted is COLUMN_UNIT=NAME"),
-        (["--chassis", "/a", "--powertrain", "/a"], "'/a' is named for two sensors"),
+        (["--chassis", "/a", "--powertrain", "/a"], "'/a' is given for two sensors"),
     ],
 )
 def test_options_that_cannot_be_are_refused(start_cli, options, words):

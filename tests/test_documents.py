@@ -69,7 +69,7 @@ def test_rows_say_default_range_and_unit():
     assert rows["`speed`"] == (
         "`10.0`",
         "-25 to 25 m/s",
-        "Speed to keep, where no drive file says it; below 0 backwards.",
+        "Constant speed, if no drive file gives it; negative for reverse.",
     )
     assert rows["`wait_for_recorder`"][:2] == ("`false`", "`false`, `true`")
     road = {row[0]: row[1:] for row in code_tables.TABLES["parameters of road_excitation"]()}

@@ -66,7 +66,7 @@ def test_a_slow_answer_is_late_and_its_controller_heard_again(start_node, unruly
     unruly("slow", 200)
     simulator = start_node("simulator", duration=0.0, answer_timeout=NOTICED)
     simulator.wait_for("no answer to the sample at t = 0.200 s; holding the last current")
-    simulator.wait_for("heard again, waiting for every answer")
+    simulator.wait_for("answers again, waiting for every answer")
     assert simulator.running
 
 
@@ -78,7 +78,7 @@ def test_two_controllers_at_once(start_node, observer):
     observer.wait_for(state="waiting")
     start_node("road_excitation")
     assert simulator.wait() == 0, simulator.output
-    assert "2 nodes answer on coil_current; the first answer counts" in simulator.output
+    assert "2 nodes answer on coil_current; the first answer is used" in simulator.output
     counts = counted(simulator)
     assert counts["accepted"] == 1000
     # whoever is slower may not even get to see every sample
@@ -99,7 +99,7 @@ def test_simulator_killed_and_restarted(start_node, observer, tmp_path):
     again = start_node("simulator", duration=0.5, speed=12.0, wait_for_recorder=True, answer_timeout=UNHURRIED)
     assert again.wait() == 0, again.output
     assert counted(again) == {"accepted": 500}
-    assert "the samples start anew: law reset" in controller.output
+    assert "the sample stamps start again: law reset" in controller.output
     recorder.signal(signal.SIGINT)
     assert recorder.wait() == 0, recorder.output
     drive = read_recording(tmp_path / "bag_epoch_2")
@@ -133,8 +133,8 @@ def test_dropped_samples(start, start_node, observer):
     controller = start_node("controller", *relayed("powertrain/imu"))
     simulator = start_node("simulator", duration=0.0, answer_timeout=NOTICED)
     # while nobody is waited for the run is as fast as it can be: it must not end meanwhile
-    simulator.wait_for("heard again, waiting for every answer")
-    assert simulator.output.index("holding the last current") < simulator.output.index("heard again")
+    simulator.wait_for("answers again, waiting for every answer")
+    assert simulator.output.index("holding the last current") < simulator.output.index("answers again")
     controller.wait_for("s apart")
     # of a period of 0.001 s; how far the run gets until an answer arrives is the machine's affair
     apart = round(1000.0 * float(re.search(r"samples (\S+) s apart", controller.output)[1]))

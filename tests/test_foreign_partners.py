@@ -44,10 +44,10 @@ def test_the_player_plays_what_it_can(start_node, observer, tmp_path):
     assert heard == imus(stamps(200).tolist())
     for words in (
         "/gnss is left out: message type some_vendor_msgs/msg/Heading is not installed",
-        "/add/_service_event is left out: example_interfaces/srv/AddTwoInts_Event is no message type",
+        "/add/_service_event is left out: example_interfaces/srv/AddTwoInts_Event is not a message type",
         "/broken is left out: definition of std_msgs/msg/String cannot be read",
         "/json is left out: its messages are in 'json'",
-        "/chassis/imu is left out: std_msgs/msg/String is its second type",
+        "/chassis/imu is left out: std_msgs/msg/String is a second type on this topic",
     ):
         assert player.output.count(words) == 1, player.output
 
@@ -87,9 +87,9 @@ def test_who_cannot_hear_is_named(start_node, observer):
     observer.collect(Imu, "chassis/imu", kept)
     observer.collect(Imu, "powertrain/imu", LOOP_QOS)
     simulator = start_node("simulator")
-    words = "/observer does not hear /chassis/imu, its QoS does not fit: ERROR: Volatile publisher"
+    words = "/observer receives nothing on /chassis/imu, its QoS is incompatible: ERROR: Volatile publisher"
     observer.wait_until(lambda: words in simulator.output and observer.values.get("state") == "waiting")
-    assert simulator.output.count(words) == 1 and "does not hear /powertrain/imu" not in simulator.output
+    assert simulator.output.count(words) == 1 and "receives nothing on /powertrain/imu" not in simulator.output
 
 
 def offset_bag(folder):
@@ -136,12 +136,14 @@ def test_answers_to_no_sample_are_an_error(start_cli, observer, answering, tmp_p
 
 
 def test_a_file_of_parameters_for_many_nodes(start_node, tmp_path):
-    """What others need is named once; what is given to a node by its name must exist."""
+    """What others need is named once; what is given to a node by its name must exist; one for others only is named."""
     shared, own = tmp_path / "shared.yaml", tmp_path / "own.yaml"
     shared.write_text("/**:\n  ros__parameters: {law: skyhook, speed: 12, gain: {upper: 1.0}, sample_rate: 500}\n")
     own.write_text("lab:\n  controller:\n    ros__parameters: {law: skyhook, speed: 12.0}\n")
     controller = start_node("controller", "--ros-args", "--params-file", shared, "--")
     controller.wait_for("law 'skyhook', waiting for accelerations")
-    assert controller.output.count("these are no parameters of it: gain.upper, speed") == 1
+    assert controller.output.count("parameters that this node does not have: gain.upper, speed") == 1
+    elsewhere = start_node("controller", "--ros-args", "--params-file", own, "-r", "__ns:=/other", "--")
+    elsewhere.wait_for("has sections for /lab/controller, but the nodes here are /other/controller")
     nested = start_node("controller", "--ros-args", "--params-file", own, "-r", "__ns:=/lab", "--")
-    assert nested.wait() == 2 and "there is no parameter 'speed'" in nested.output
+    assert nested.wait() == 2 and "unknown parameter 'speed'" in nested.output

@@ -220,7 +220,7 @@ def test_one_message_is_no_second_clock(start_node, observer):
         return not simulator.running
 
     observer.wait_until(has_given_way)
-    assert "error: another simulator drives /clock" in simulator.output
+    assert "error: another simulator publishes /clock" in simulator.output
 
 
 def test_controller_takes_no_description_that_makes_no_sense(start_node, observer):
@@ -246,7 +246,7 @@ def test_controller_takes_no_description_that_makes_no_sense(start_node, observe
     twice = mount_description(undescribed(3))
     twice.mounts[1].name = "mount 1"
     told.publish(twice)
-    controller.wait_for("refused: mounts are called mount 1, mount 1, mount 3, accepted are names that differ")
+    controller.wait_for("refused: mount names are mount 1, mount 1, mount 3, must be unique")
     assert answered_after(2) == 4
     told.publish(mount_description(undescribed(16, 20)))
     controller.wait_for("mount 16")

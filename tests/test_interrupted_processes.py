@@ -51,5 +51,5 @@ def test_a_stopped_controller_is_silent(loop, observer):
     loop["controller"].signal(signal.SIGSTOP)
     loop["simulator"].wait_for("holding the last current")
     loop["controller"].signal(signal.SIGCONT)
-    loop["simulator"].wait_for("heard again")
+    loop["simulator"].wait_for("answers again")
     assert loop["simulator"].wait() == 0, loop["simulator"].output

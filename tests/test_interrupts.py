@@ -59,7 +59,7 @@ def test_a_second_run_in_the_same_domain_is_refused(start_cli, tmp_path):
     wait_for_text(tmp_path / "first" / "log" / "simulator.log", "running")
     second = start_cli("run", "--out", tmp_path / "second")
     assert second.wait() == 1
-    assert "a simulator runs in ROS domain" in second.output and "ROS_DOMAIN_ID" in second.output
+    assert "a simulator is already running in ROS domain" in second.output and "ROS_DOMAIN_ID" in second.output
     assert not (tmp_path / "second").exists()
     assert first.running
 
@@ -83,7 +83,7 @@ def test_impossible_domain_is_refused(start_cli, env, domain):
         (["--duration", "2"], ["--duration", "2 s", "at least 3.0 s"]),
         (["--law", "magic"], ["--law", "magic", "passive, skyhook"]),
         (["--seed", "-1"], ["--seed", "-1", "0<=x<="]),
-        (["--out", "/proc/none/run"], ["/proc/none/run", "cannot be made"]),
+        (["--out", "/proc/none/run"], ["/proc/none/run", "cannot be created"]),
         (["--sped", "3"], ["--sped"]),
     ],
 )

@@ -52,7 +52,7 @@ def test_a_new_controller_is_heard_again(loop, start_node):
     controller.signal(signal.SIGKILL)
     simulator.wait_for("holding the last current")
     start_node("controller").wait_for("first sample")
-    simulator.wait_for("heard again, waiting for every answer")
+    simulator.wait_for("answers again, waiting for every answer")
     simulator.signal(signal.SIGINT)
     assert simulator.wait() == 0
 

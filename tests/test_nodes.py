@@ -50,7 +50,7 @@ def test_waits_and_ends_cleanly(start_node, tmp_path, name, number):
         ("controller", {"law": "json:JSONDecoder"}, ["'law'", "json:JSONDecoder", "ControlLaw"]),
         ("controller", {"law": "skyhook", "firm_current": 9.0}, ["'firm_current'", "9.0", "0.7 to 4 A"]),
         ("controller", {"law": "hybrid", "soft_current": 2.0, "firm_current": 1.0}, ["'soft_current'", "2.0", "1 A"]),
-        ("recorder", {"bag": "/proc/none/bag"}, ["/proc/none/bag", "cannot be made"]),
+        ("recorder", {"bag": "/proc/none/bag"}, ["/proc/none/bag", "cannot be created"]),
         ("recorder", {"topics": "['bad topic']"}, ["'topics'", "bad topic"]),
         ("recorder", {"pattern": "'['"}, ["'pattern'", "'['", "regular expressions"]),
         ("recorder", {"compression": "gzip"}, ["'compression'", "'gzip'", "zstd, none"]),
@@ -84,7 +84,7 @@ def test_bad_parameter_is_refused_by_name(start_node, tmp_path, name, parameters
         ("recorder", ("--ros-args", "-p", "bag"), "parameter override rule: '-p bag'"),
         ("one_process", ("--ros-args", "-r", "__ns:=bad"), "remap rule: '-r __ns:=bad'"),
         ("player", ("--ros-args", "--params-file", "/nowhere"), "params file: '--params-file /nowhere'"),
-        ("simulator", ("--ros-args", "-p", "vehicle_file:=\udcff"), "is no text in UTF-8"),
+        ("simulator", ("--ros-args", "-p", "vehicle_file:=\udcff"), "is not UTF-8 text"),
     ],
 )
 def test_bad_argument_is_refused_in_one_line(start_node, name, arguments, words):
@@ -106,7 +106,7 @@ def test_help_tells_all_and_starts_nothing(fork, observer):
             "mount_state  (trackvib_msgs/msg/MountState, 1 kHz)",
             "/pause",
         ),
-        "road_excitation": ("seed:=1\n", "road_excitation listens to:\n  drive_state"),
+        "road_excitation": ("seed:=1\n", "road_excitation subscribes to:\n  drive_state"),
         "recorder": ("chunk_size:=1024\n", "from 16 to 65536 KiB"),
         "player": ("rate:=1.0\n", "player/reset  (std_srvs/srv/Trigger)"),
         "controller": ("sample_rate:=1000.0\n", "with law:=skyhook, may change while it runs:\n  soft_current:=0.8"),
@@ -159,7 +159,7 @@ def test_names_can_be_remapped_into_a_namespace(start_node, tmp_path):
 def test_what_a_node_is_told_is_shown_as_signs(start_node, tmp_path):
     """What it waits for and where it records never move the cursor."""
     recorder = start_node("recorder", pattern=r'"\x1bred"', bag=rf'"{tmp_path}/ba\x1bg"')
-    recorder.wait_for(r"topics like '\x1bred'")
+    recorder.wait_for(r"topics matching '\x1bred'")
     recorder.signal(signal.SIGINT)
     assert recorder.wait() == 0, recorder.output
     assert r"ba\x1bg" in recorder.output and "\x1b" not in recorder.output
@@ -171,5 +171,5 @@ def test_existing_bag_is_not_overwritten(start_node, tmp_path):
     (tmp_path / "bag" / "kept").write_text("precious")
     recorder = start_node("recorder", bag=tmp_path / "bag")
     assert recorder.wait() != 0
-    assert "exists already" in recorder.output
+    assert "already exists" in recorder.output
     assert [path.name for path in (tmp_path / "bag").iterdir()] == ["kept"]

@@ -149,7 +149,7 @@ def test_disk_that_is_full_at_the_start(start_node, small_disk, tmp_path):
                 break
     recorder = start_node("recorder", bag=disk / "bag", before=before)
     assert recorder.wait() == 1
-    assert re.search(rf"bag '.*disk/bag' cannot be made: {words}", last_words(recorder))
+    assert re.search(rf"bag '.*disk/bag' cannot be created: {words}", last_words(recorder))
     assert not (disk / "bag").exists()
 
 

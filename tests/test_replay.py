@@ -91,10 +91,10 @@ def test_both_are_shown(start_cli, recorded_run, rerun, tmp_path):
     assert np.std(after - before) > 0.1 * np.std(before)  # levels of so short a drive may come out alike
     for number in (f"{old:.3f}", f"{new:.3f}", f"{100.0 * (new / old - 1.0):+.1f} %"):
         assert number in replay.output
-    assert "driven to the recorded end" in replay.output
+    assert "ran to the end of the recording" in replay.output
     assert (tmp_path / "out" / "replay.png").read_bytes().startswith(b"\x89PNG")
     again = start_cli("replay", recorded_run / "bag", "--law", "passive", "--out", tmp_path / "out")
-    assert again.wait() == 1 and "exists already" in again.output
+    assert again.wait() == 1 and "already exists" in again.output
 
 
 def test_a_rerun_ends_with_its_road(recorded_run, tmp_path, monkeypatch):
@@ -126,7 +126,7 @@ def test_into_a_stock_controller(start_cli, recorded_run, tmp_path, law, words):
     assert counts(tmp_path / "out" / "bag") == both
     np.testing.assert_array_equal(new.answers.current, old.answers.current)
     again = start_cli("replay", tmp_path / "out" / "bag", "--controller", law, "--out", tmp_path / "again")
-    assert again.wait() == 1 and "is the result of such a replay" in again.output
+    assert again.wait() == 1 and "is the result of a replay into a controller" in again.output
     assert not (tmp_path / "again").exists()
     assert contents(tmp_path / "out" / "bag").attachments == contents(recorded_run / "bag").attachments
 
@@ -166,11 +166,11 @@ def test_interrupted(start_cli, recorded_run, tmp_path):
     [
         ((), 2, "exactly one of --verify, --law and --controller is needed"),
         (("--verify", "--law", "passive"), 2, "exactly one of"),
-        (("--verify", "--out", "somewhere"), 2, "--out does not go with it"),
+        (("--verify", "--out", "somewhere"), 2, "cannot be combined with --out"),
         (("--law", "magic"), 2, "accepted is one of acceleration_driven"),
         (("--controller", "magic"), 2, "accepted is one of acceleration_driven"),
-        (("--law", "passive", "--out", "/proc/none"), 1, "cannot be made"),
-        (("--controller", "passive", "--out", "/proc/none"), 1, "cannot be made"),
+        (("--law", "passive", "--out", "/proc/none"), 1, "cannot be created"),
+        (("--controller", "passive", "--out", "/proc/none"), 1, "cannot be created"),
     ],
 )
 def test_bad_options(start_cli, recorded_run, options, code, words):

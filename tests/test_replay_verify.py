@@ -107,7 +107,7 @@ def told(name, key, value):
         (without("/diagnostics"), None),
         (told("parameters of /simulator", "pace", "realtime"), "pace is 'realtime'"),
         (told("parameters of /simulator", "physics_rate", "10"), "recorded physics_rate is '10'"),
-        ({"provenance": lambda name, values: None}, "does not tell the parameters of its simulator"),
+        ({"provenance": lambda name, values: None}, "does not hold the parameters of its simulator"),
         ({"message": lambda at, data: data[:30] if at == "/vehicle_description" else data}, "cannot be read"),
     ],
 )

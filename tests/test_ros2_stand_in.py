@@ -81,7 +81,7 @@ def test_reading_verbs(loop, ros2):
     part = ros2(["topic", "echo", "--once", "/odometry", "--field", "pose.covariance[0]"])
     assert part == "0.0\n---\n"
     trigger = ros2(["service", "call", "/simulator/step", "std_srvs/srv/Trigger"], "response:\n")
-    assert "std_srvs.srv.Trigger_Response(success=True, message='one period on, from t = " in trigger
+    assert "std_srvs.srv.Trigger_Response(success=True, message='one period, from t = " in trigger
 
 
 @SLOW
@@ -206,7 +206,7 @@ def test_messages_as_text():
     assert cut["orientation_covariance"] == [2.5, 0.0, "..."]
     assert message_text.plain(imu, no_arr=True)["orientation_covariance"] == "<array type: double[9]>"
     assert message_text.part_of(imu, "orientation_covariance[0]") == 2.5
-    with pytest.raises(Failure, match="'nothing' is no part of Imu"):
+    with pytest.raises(Failure, match="'nothing' is not a field of Imu"):
         message_text.part_of(imu, "header.nothing".removeprefix("header."))
     with pytest.raises(Failure, match=r"there is no \[9\]"):
         message_text.part_of(imu, "orientation_covariance[9]")

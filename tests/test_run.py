@@ -205,5 +205,5 @@ def test_analysis_of_the_bag_agrees_with_the_summary(first, tmp_path):
 def test_a_folder_is_never_overwritten(first):
     """A second run into the same folder is refused and leaves it as it was."""
     before = sorted(Path(first[0]).rglob("*"))
-    assert "exists already" in trackvib("run", "--out", first[0], code=1)
+    assert "already exists" in trackvib("run", "--out", first[0], code=1)
     assert sorted(Path(first[0]).rglob("*")) == before

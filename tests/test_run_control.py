@@ -70,8 +70,8 @@ def test_reset_gives_the_first_run_again(start_node, loop, observer, tmp_path):
     observer.wait_until(lambda: float(observer.values.get("time", 0.0)) > 0.5)
     assert observer.call("reset").success
     assert nodes["simulator"].wait() == 0, nodes["simulator"].output
-    assert "epoch 2: the run begins anew" in nodes["simulator"].output
-    assert "the samples start anew: law reset" in nodes["controller"].output
+    assert "epoch 2: the run restarts" in nodes["simulator"].output
+    assert "the sample stamps start again: law reset" in nodes["controller"].output
     assert observer.wait_for(state="finished", epoch="2") == 1.5
     assert observer.values["accepted"] == "1500"
     recorder.signal(signal.SIGINT)

@@ -34,7 +34,7 @@ FOR_ALL = """
 """
 LAUNCH = Path(get_package_share_directory("trackvib_sim")) / "launch" / "closed_loop.launch.py"
 NAMED_OTHERWISE = {"files": "params_file", "out": "bag"}
-_SAID = "of what a file gives to many nodes, these are no parameters of it:"
+_SAID = "a parameter file for several nodes contains parameters that this node does not have:"
 
 
 @pytest.fixture(scope="module")

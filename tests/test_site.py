@@ -49,7 +49,7 @@ def test_site_is_whole_and_fetches_nothing(site, start):
     for name in ("read_vehicle", "run_closed_loop", "natural_frequencies", "ControlLaw"):
         assert f">{name}<" in names or f"{name}</" in names, name
     again = start([*COMMAND, "--build", site])
-    assert again.wait() == 1 and "exists already" in again.output
+    assert again.wait() == 1 and "already exists" in again.output
 
 
 def test_site_is_shown_on_loopback(start):

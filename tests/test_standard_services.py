@@ -9,7 +9,7 @@ from ament_index_python.packages import get_package_share_directory
 from rclpy.action import ActionClient
 from rclpy.qos import QoSProfile
 from simulation_interfaces.action import SimulateSteps
-from simulation_interfaces.msg import Result, SimulationState
+from simulation_interfaces.msg import Result, SimulationState, SimulatorFeatures
 from simulation_interfaces.srv import (
     GetEntityState,
     GetSimulationState,
@@ -67,10 +67,12 @@ def state(number):
 
 def test_states_steps_and_entities(simulator, call):
     """Pause, exact steps, where the hull is after them, reset, stop, play and quit."""
-    assert len(call(GetSimulatorFeatures, "get_simulator_features").features.features) == 8
+    features = call(GetSimulatorFeatures, "get_simulator_features").features.features
+    assert len(features) == 8 and SimulatorFeatures.SIMULATION_RESET in features
+    assert not {SimulatorFeatures.SIMULATION_RESET_TIME, SimulatorFeatures.SIMULATION_RESET_STATE} & set(features)
     assert call(GetSimulationState, "get_simulation_state").state.state == PLAYING
     refused = call(StepSimulation, "step_simulation").result
-    assert refused.result == Result.RESULT_OPERATION_FAILED and "not paused" in refused.error_message
+    assert refused.result == Result.RESULT_OPERATION_FAILED and "steps need a paused run" in refused.error_message
     set_state = lambda number: call(SetSimulationState, "set_simulation_state", **state(number)).result.result  # noqa: E731
     assert set_state(PAUSED) == Result.RESULT_OK
     assert set_state(PAUSED) == SetSimulationState.Response.ALREADY_IN_TARGET_STATE
@@ -81,10 +83,17 @@ def test_states_steps_and_entities(simulator, call):
     assert after[1] - before[1] == pytest.approx(0.1 * (before[2] + after[2]), rel=0.02)
     unknown = call(GetEntityState, "get_entity_state", entity="no\x1bbody").result
     assert unknown.result == Result.RESULT_NOT_FOUND and unknown.error_message.isprintable()
-    alone = call(ResetSimulation, "reset_simulation", scope=ResetSimulation.Request.SCOPE_TIME).result
-    assert alone.result == Result.RESULT_FEATURE_UNSUPPORTED
-    assert call(ResetSimulation, "reset_simulation").result.result == Result.RESULT_OK
-    assert hull(call)[0] == 0
+    scope = ResetSimulation.Request
+    for alone in (scope.SCOPE_TIME, scope.SCOPE_STATE, scope.SCOPE_SPAWNED, scope.SCOPE_TIME | scope.SCOPE_SPAWNED):
+        refused = call(ResetSimulation, "reset_simulation", scope=alone).result
+        assert (
+            refused.result == Result.RESULT_FEATURE_UNSUPPORTED and "accepted are 0, 3 and 255" in refused.error_message
+        )
+        assert hull(call)[0] == after[0]
+    for whole in (scope.SCOPE_DEFAULT, scope.SCOPE_TIME | scope.SCOPE_STATE, scope.SCOPE_ALL):
+        assert call(StepSimulation, "step_simulation", steps=1).result.result == Result.RESULT_OK
+        assert call(ResetSimulation, "reset_simulation", scope=whole).result.result == Result.RESULT_OK
+        assert hull(call)[0] == 0
     assert call(GetSimulationState, "get_simulation_state").state.state == PAUSED
     assert set_state(PLAYING) == Result.RESULT_OK
     assert set_state(STOPPED) == Result.RESULT_OK

@@ -94,7 +94,7 @@ def test_goes_on_where_it_was_interrupted(table1, tmp_path, kept_cases):
     assert run.wait() == 130
     kept = finished(folder)
     assert 0 < len(kept) < 4, "it was not interrupted midway"
-    assert f"interrupted; finished runs are kept in {folder}, the same command goes on from there" in run.output
+    assert f"interrupted; finished runs are kept in {folder}, the same command continues from there" in run.output
     assert "Traceback" not in run.output
     assert [path.name for path in folder.iterdir()] == ["cases"]
     again = table1(*SMALL, "--out", folder)
@@ -182,7 +182,7 @@ def test_a_lost_cluster_ends_the_study_in_one_line(table1, scheduler, tmp_path):
     wait_until(lambda: finished(tmp_path / "table1"), run)
     os.kill(process.pid, signal.SIGKILL)
     assert run.wait() == 1
-    assert "error: the Dask scheduler is gone" in run.output and "Traceback" not in run.output
+    assert "error: the connection to the Dask scheduler is lost" in run.output and "Traceback" not in run.output
     assert 0 < len(finished(tmp_path / "table1")) < 4
 
 

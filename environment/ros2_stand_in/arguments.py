@@ -58,14 +58,19 @@ def _launch(commands):
 
 
 def _looking(verb):
-    verb.add_argument("--spin-time", type=_seconds, default=1.0, help="s without news after which all is found")
+    verb.add_argument(
+        "--spin-time",
+        type=_seconds,
+        default=1.0,
+        help="seconds without a change after which the graph counts as complete",
+    )
     verb.add_argument("--no-daemon", action="store_true", help="there is none; accepted as ros2cli's")
 
 
 def _topic(verbs):
     every = _verb(verbs, "list", "topics:list_topics", "list topics")
     every.add_argument("-t", "--show-types", action="store_true", help="show the type of each")
-    every.add_argument("-c", "--count-topics", action="store_true", help="only their number")
+    every.add_argument("-c", "--count-topics", action="store_true", help="only the number of them")
     every.add_argument("-v", "--verbose", action="store_true", help="by publishers and subscribers, with counts")
     every.add_argument("--include-hidden-topics", action="store_true")
     _looking(every)
@@ -74,9 +79,11 @@ def _topic(verbs):
     info.add_argument("-v", "--verbose", action="store_true", help="each end with its node and quality of service")
     _looking(info)
     _echo(_verb(verbs, "echo", "echo:echo", "print messages of a topic"))
-    hz = _verb(verbs, "hz", "rates:hz", "print how often messages come")
+    hz = _verb(verbs, "hz", "rates:hz", "print at what rate messages arrive")
     hz.add_argument("topic_name")
-    hz.add_argument("-w", "--window", type=_count, default=HZ_WINDOW, metavar="N", help="messages of which it is told")
+    hz.add_argument(
+        "-w", "--window", type=_count, default=HZ_WINDOW, metavar="N", help="window of messages to average over"
+    )
     hz.add_argument("--wall-time", action="store_true", help="always so here; accepted as ros2cli's")
     _looking(hz)
 
@@ -86,7 +93,7 @@ def _echo(echo):
     echo.add_argument("message_type", nargs="?", help="found by the topic if not given")
     echo.add_argument("--once", action="store_true", help="end after the first message")
     echo.add_argument("--field", metavar="PATH", help="a part of the message, as twist.linear.x or values[0]")
-    echo.add_argument("--csv", action="store_true", help="one line a message")
+    echo.add_argument("--csv", action="store_true", help="one line per message")
     echo.add_argument("-f", "--full-length", action="store_true", help="all of long arrays and texts")
     echo.add_argument("-l", "--truncate-length", type=_count, default=TRUNCATED, metavar="N", help="what is long")
     echo.add_argument("--flow-style", action="store_true", help="collections in one line each")
@@ -102,7 +109,7 @@ def _echo(echo):
 def _node(verbs):
     every = _verb(verbs, "list", "nodes:list_nodes", "list nodes")
     every.add_argument("-a", "--all", action="store_true", help="hidden ones, too")
-    every.add_argument("-c", "--count-nodes", action="store_true", help="only their number")
+    every.add_argument("-c", "--count-nodes", action="store_true", help="only the number of them")
     _looking(every)
     info = _verb(verbs, "info", "nodes:info", "topics, services and actions of a node")
     info.add_argument("node_name")
@@ -141,14 +148,14 @@ def _param(verbs):
 def _service(verbs):
     every = _verb(verbs, "list", "services:list_services", "list services")
     every.add_argument("-t", "--show-types", action="store_true", help="show the type of each")
-    every.add_argument("-c", "--count-services", action="store_true", help="only their number")
+    every.add_argument("-c", "--count-services", action="store_true", help="only the number of them")
     every.add_argument("--include-hidden-services", action="store_true")
     _looking(every)
     call = _verb(verbs, "call", "services:call", "call a service")
     call.add_argument("service_name")
     call.add_argument("service_type", help="as std_srvs/srv/Trigger")
     call.add_argument("values", nargs="?", default="{}", help="the request's fields in YAML")
-    call.add_argument("-r", "--rate", type=_rate, metavar="N", help="again and again, so often a second")
+    call.add_argument("-r", "--rate", type=_rate, metavar="N", help="again and again, at this rate in Hz")
 
 
 def _count(text):

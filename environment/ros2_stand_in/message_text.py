@@ -18,7 +18,7 @@ def part_of(message, path):
     for step in path.split("."):
         match = _PART.fullmatch(step)
         if not match or not _is_message(message) or match[1] not in message.get_fields_and_field_types():
-            raise Failure(f"Invalid field '{path}': {step!r} is no part of {type(message).__name__}")
+            raise Failure(f"Invalid field '{path}': {step!r} is not a field of {type(message).__name__}")
         message = getattr(message, match[1])
         for index in re.findall(r"-?\d+", match[2]):
             try:
@@ -67,7 +67,7 @@ def from_yaml(text, what):
     try:
         return yaml.safe_load(text)
     except (yaml.YAMLError, RecursionError, ValueError) as error:
-        raise Failure(f"{what} is no YAML: {' '.join(str(error).split())}") from None
+        raise Failure(f"{what} is not YAML: {' '.join(str(error).split())}") from None
 
 
 def fill(message, values):

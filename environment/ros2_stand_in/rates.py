@@ -1,4 +1,4 @@
-"""`ros2 topic hz`: how often messages come, by the clock on the wall."""
+"""`ros2 topic hz`: at what rate messages arrive, by the clock on the wall."""
 
 import sys
 import time

@@ -64,7 +64,7 @@ class LaunchContext:
         elif isinstance(entity, LaunchDescriptionEntity):
             entity.visit(self)
         else:
-            raise LaunchError(f"{entity!r} is nothing that a launch description holds")
+            raise LaunchError(f"{entity!r} cannot be part of a launch description")
 
     def perform_substitution(self, value):
         """Return the text that a substitution, a text, or a list of both stands for."""
@@ -87,6 +87,6 @@ def load_description(path):
         spec.loader.exec_module(module)
         return module.generate_launch_description()
     except ImportError as error:
-        raise LaunchError(f"{path}: {error}; trackvib's stand-in has a part of ROS 2's launch only") from None
+        raise LaunchError(f"{path}: {error}; trackvib's stand-in supports only a part of ROS 2's launch") from None
     except Exception as error:  # whatever a user's file raises
         raise LaunchError(f"{path}: {type(error).__name__}: {error}") from None

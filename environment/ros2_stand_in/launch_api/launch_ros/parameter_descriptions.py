@@ -9,7 +9,7 @@ class ParameterFile:
 
     def __init__(self, param_file, *, allow_substs=False):
         if allow_substs:
-            raise LaunchError("a parameter file with substitutions in it is nothing that this stand-in reads")
+            raise LaunchError("this stand-in does not read parameter files with substitutions")
         self.param_file = param_file
 
 

@@ -140,12 +140,12 @@ def described(message):
             told["curve"] = _curve(message.curve)
     mounting = Mounting(tuple(map(_mount, message.mounts)), tuple(map(bool, message.turning)), **told)
     if len(set(mounting.names)) < len(mounting.mounts):
-        raise ValueError(f"mounts are called {', '.join(mounting.names)}, accepted are names that differ")
+        raise ValueError(f"mount names are {', '.join(mounting.names)}, must be unique")
     if mounting.coils > MOST_COILS:
         raise ValueError(f"{mounting.coils} magnetorheological mounts are described, accepted are {MOST_COILS}")
     kinds = [mount.kind for mount in mounting.mounts]
     if kinds != sorted(kinds):
-        raise ValueError("a rubber mount is described before a magnetorheological one, accepted is the reverse")
+        raise ValueError("a rubber mount is described before a magnetorheological one, must be after it")
     return mounting
 
 
@@ -178,7 +178,7 @@ def _curve(message):
 def _mount(message):
     name, place = message.name, (message.place.x, message.place.y, message.place.z)
     if not (0 < len(name) <= _LONGEST_NAME and name.isprintable()):
-        raise ValueError(f"a mount is called {name[:_LONGEST_NAME]!r}, accepted are 1 to {_LONGEST_NAME} signs")
+        raise ValueError(f"a mount is called {name[:_LONGEST_NAME]!r}, accepted are 1 to {_LONGEST_NAME} characters")
     if message.kind not in list(Kind):
         accepted = ", ".join(f"{kind} ({kind.name})" for kind in Kind)
         raise ValueError(f"mount {name} is of kind {message.kind}, accepted are {accepted}")

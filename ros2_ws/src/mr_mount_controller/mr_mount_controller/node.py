@@ -26,10 +26,12 @@ from .node_base.qos import LATCHED_QOS, LOOP_QOS, LOOP_WRITER_QOS
 from .node_base.topics import CHASSIS_IMU, COIL_CURRENT, LAW_PARAMETERS, MOUNT_DESCRIPTION, POWERTRAIN_IMU
 
 PARAMETERS = (
-    Parameter("law", "passive", "Control law: a known name, or package.module:Class."),
+    Parameter("law", "passive", "Control law: the name of an installed law, or package.module:Class."),
     Parameter("sample_rate", 1000.0, "Rate of the Imu messages.", "Hz", 10.0, 10000.0),
-    Parameter("coils", 0, f"Number of coils; 0: as {MOUNT_DESCRIPTION} tells, for which it waits.", "", 0, MOST_COILS),
-    Parameter("wait_for_recorder", False, "Answer nothing before a recorder listens to the currents, too."),
+    Parameter(
+        "coils", 0, f"Number of coils; 0: wait for {MOUNT_DESCRIPTION} and take it from there.", "", 0, MOST_COILS
+    ),
+    Parameter("wait_for_recorder", False, "Send no answer before a recorder has subscribed to the currents."),
 )
 _PATIENCE = 10.0  # s of wall time for those who shall hear the answers
 _GREATEST = 1e6  # m/s^2 or rad/s; no sensor measures more
@@ -157,7 +159,7 @@ class ControllerNode(LoopNode):
         if self._last is None:
             self._wait_for_listeners()
         elif stamp <= self._last:
-            self.get_logger().info("the samples start anew: law reset")
+            self.get_logger().info("the sample stamps start again: law reset")
             self._law.reset()
             self._wait_for_listeners()
         else:
@@ -175,8 +177,8 @@ class ControllerNode(LoopNode):
         if not self._missed:
             self._missed = True
             self.get_logger().warning(
-                f"accelerations come, but nobody tells on {MOUNT_DESCRIPTION} how many coils there are; where nobody "
-                "does, parameter coils does"
+                f"accelerations arrive, but no node publishes {MOUNT_DESCRIPTION} with the number of coils; "
+                "without it, set parameter coils"
             )
 
     def _check_step(self, step):
@@ -205,12 +207,12 @@ class ControllerNode(LoopNode):
 
     def _clash(self, step):
         raise NodeError(
-            f"samples come {step / NANO} s apart ({NANO / step:g} Hz), sample_rate is {self.settings['sample_rate']:g} "
-            "Hz: the two rates clash"
+            f"samples arrive {step / NANO} s apart ({NANO / step:g} Hz), sample_rate is "
+            f"{self.settings['sample_rate']:g} Hz: the two rates conflict"
         )
 
     def _wait_for_listeners(self):
-        self.get_logger().info("first sample received, answering")
+        self.get_logger().info("first sample received, sending answers")
         self._steps = self._gaps = 0
         self._first = []
         wanted = 1 + self.settings["wait_for_recorder"]
@@ -218,7 +220,7 @@ class ControllerNode(LoopNode):
         heard = self._currents.get_subscription_count
         patience = Patience(lambda _: time.sleep(0.01))
         if not patience.wait_until(lambda: heard() >= wanted or self.stopping(), _PATIENCE):
-            self.get_logger().warning(f"{heard()} of {wanted} listen to the currents, answering all the same")
+            self.get_logger().warning(f"{heard()} of {wanted} have subscribed to the currents, sending answers anyway")
 
 
 def main(args=None):

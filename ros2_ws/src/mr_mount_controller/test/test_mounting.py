@@ -38,10 +38,10 @@ def test_a_description_comes_back(coils, pads):
 @pytest.mark.parametrize(
     ("mounts", "words"),
     [
-        ([("a", 0, (0.0,) * 3)] * 2, "mounts are called a, a, accepted are names that differ"),
-        ([("", 0, (0.0,) * 3)], "a mount is called '', accepted are 1 to 64 signs"),
+        ([("a", 0, (0.0,) * 3)] * 2, "mount names are a, a, must be unique"),
+        ([("", 0, (0.0,) * 3)], "a mount is called '', accepted are 1 to 64 characters"),
         ([("a\nb", 0, (0.0,) * 3)], r"a mount is called 'a\\nb'"),
-        ([("n" * 65, 0, (0.0,) * 3)], "accepted are 1 to 64 signs"),
+        ([("n" * 65, 0, (0.0,) * 3)], "accepted are 1 to 64 characters"),
         ([("a", 7, (0.0,) * 3)], r"mount a is of kind 7, accepted are 0 \(MR\), 1 \(RUBBER\)"),
         ([("a", 0, (0.0, math.nan, 0.0))], "mount a is at .*nan.* accepted is up to 100 m"),
         ([("a", 0, (0.0, 1e9, 0.0))], "mount a is at .*accepted is up to 100 m"),

@@ -50,8 +50,8 @@ def test_good_values_come_back(parameter, value):
         (NAME, 5, "a text"),
         (CHOICE, "medium", "one of slow, fast"),
         (CHOICE, 1, "one of slow, fast"),
-        (TOPICS, "a", "a list of texts"),
-        (TOPICS, ["a", 1], "a list of texts"),
+        (TOPICS, "a", "a list of strings"),
+        (TOPICS, ["a", 1], "a list of strings"),
     ],
 )
 def test_refusal_names_item_value_and_what_is_accepted(parameter, value, accepted):

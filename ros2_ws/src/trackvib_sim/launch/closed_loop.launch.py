@@ -1,5 +1,6 @@
 """Starts the nodes of a closed loop and ends them all when the simulator is done."""
 
+import sys
 import tempfile
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from launch.event_handlers import OnProcessExit, OnShutdown
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 from mr_mount_controller.node_base.parameters import ParameterError
+from mr_mount_controller.node_base.plain_text import plain_line
 from trackvib_sim.nodes.loop_arguments import ARGUMENTS, RECORDER, argument_from_text, loop_parameters
 from trackvib_sim.nodes.node_parameters import full_namespace
 from trackvib_sim.vehicle.vehicle_file import VehicleFileError
@@ -17,9 +19,9 @@ PACKAGES = {"controller": "mr_mount_controller"}  # of executables that are not 
 FOUR_PROCESSES = ("road_excitation", "controller", "recorder", "simulator")
 ONE_PROCESS = ("recorder", "one_process")
 FURTHER = {
-    "params_file": ("", "Parameter file for any of the nodes, where no argument is given."),
-    "namespace": ("/", "Namespace of the whole vehicle, its clock included."),
-    "one_process": ("false", "Simulator, road and controller in one process: the same results, sooner."),
+    "params_file": ("", "Parameter file for any of the nodes; arguments take precedence."),
+    "namespace": ("/", "Namespace of the whole vehicle, including its clock."),
+    "one_process": ("false", "Run simulator, road and controller in one process: same results, faster."),
     "bag": ("", "Folder of the bag; empty for bag_<date and time>."),
 }
 
@@ -46,6 +48,8 @@ def _start(context):
         raise RuntimeError(str(error)) from None
     if told["bag"]:
         parameters.give(RECORDER, bag=told["bag"])
+    for note in parameters.notes:
+        print(f"warning: {plain_line(note)}", file=sys.stderr)
     folder = tempfile.TemporaryDirectory(prefix="trackvib_")
     file = Path(folder.name) / "parameters.yaml"
     parameters.write(file)

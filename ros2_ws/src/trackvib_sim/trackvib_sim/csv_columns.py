@@ -52,9 +52,9 @@ def read_columns(path, units, layouts, optional, most, called=None):
         with open_ordinary(path, _LARGEST) as file, TextIOWrapper(file, encoding="utf-8-sig", newline="") as text:
             return _read(text, name, units, layouts, optional, most, called or {})
     except UnicodeDecodeError as error:
-        raise CsvError(f"{name} is no text in UTF-8: it has a byte 0x{error.object[error.start]:02x}") from None
+        raise CsvError(f"{name} is not UTF-8 text: it has a byte 0x{error.object[error.start]:02x}") from None
     except csv.Error as error:  # NUL, for older versions of Python
-        raise CsvError(f"{name} is no CSV file: {error}") from None
+        raise CsvError(f"{name} is not a CSV file: {error}") from None
 
 
 def _read(file, name, units, layouts, optional, most, called):
@@ -112,7 +112,7 @@ def _columns(columns, name, units, layouts, optional):
         quantity, _, unit = column.rpartition("_")
         if unit in units.get(quantity, ()):
             if quantity in found:
-                raise CsvError(f"{name}: two columns are called {quantity}, accepted is one")
+                raise CsvError(f"{name}: two columns are named {quantity}, must be one")
             found[quantity] = place, units[quantity][unit]
     for names in layouts:
         if all(each in found for each in names):

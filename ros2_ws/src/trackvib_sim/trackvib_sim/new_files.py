@@ -41,5 +41,5 @@ def set_aside(path):
     path = Path(path)
     aside = path.with_name(f"{path.name}.damaged")
     if os.path.lexists(aside):
-        raise FileExistsError(f"{str(aside)!r} exists already; nothing is overwritten")
+        raise FileExistsError(f"{str(aside)!r} already exists; nothing is overwritten")
     return path.rename(aside)

@@ -23,5 +23,5 @@ def open_ordinary(path, largest):
         return open(descriptor, "rb")
     os.close(descriptor)
     if not S_ISREG(told.st_mode):
-        raise OSError(errno.EINVAL, "it is no ordinary file")
+        raise OSError(errno.EINVAL, "it is not a regular file")
     raise OSError(errno.EFBIG, f"it has {told.st_size} bytes, accepted are {largest}")

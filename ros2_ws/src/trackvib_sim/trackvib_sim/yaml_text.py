@@ -78,7 +78,7 @@ def _bounded(text, name, read):
     except (yaml.YAMLError, ValueError, LookupError, AttributeError, OverflowError, TypeError) as error:
         reason = shortened(" ".join(str(error).split()), _LONGEST_REASON)
         if not isinstance(error, yaml.YAMLError):
-            reason = f"a value is not of the kind that it should be: {reason}"
+            reason = f"a value has the wrong type: {reason}"
         raise YamlTextError(readable(f"{name}: not a YAML file: {reason}")) from None
 
 
@@ -103,7 +103,7 @@ class _Loader(yaml.SafeLoader):
 
     def compose_node(self, parent, index):
         if self.check_event(yaml.AliasEvent):
-            raise yaml.YAMLError(f"alias *{self.peek_event().anchor} is not accepted, write it out")
+            raise yaml.YAMLError(f"alias *{self.peek_event().anchor} is not accepted, write the value out")
         if self._depth == DEEPEST:
             raise yaml.YAMLError(f"nested too deeply, accepted are {DEEPEST} levels")
         self._depth += 1
@@ -118,7 +118,7 @@ class _Loader(yaml.SafeLoader):
             first = before.setdefault((key.tag, str(key.value)), key)
             if first is not key:
                 lines = f"{first.start_mark.line + 1} and {key.start_mark.line + 1}"
-                raise yaml.YAMLError(f"{shortened(str(key.value))} stands twice, in lines {lines}")
+                raise yaml.YAMLError(f"{shortened(str(key.value))} is given twice, in lines {lines}")
         return node
 
     def compose_scalar_node(self, anchor):

@@ -60,7 +60,7 @@ def find_law(name: str) -> type[ControlLaw]:
             return _load(name, entry.value)
     if not name.partition(":")[2]:
         raise ParameterError(
-            f"parameter 'law' is {name!r}, accepted is one of {', '.join(known_laws())}, or package.module:Class"
+            f"parameter 'law' is {name!r}, must be one of {', '.join(known_laws())}, or package.module:Class"
         )
     return _load(name, name)
 

@@ -13,7 +13,7 @@ from math import pi
 from ..node_base.parameters import Parameter
 from .semi_active import SEMI_ACTIVE, OnOffLaw
 
-CROSSOVER = Parameter("crossover", 10.0, "Frequency below which skyhook decides, above it ADD.", "Hz", 0.1, 200.0)
+CROSSOVER = Parameter("crossover", 10.0, "Crossover frequency: skyhook acts below it, ADD above it.", "Hz", 0.1, 200.0)
 
 
 class AccelerationDriven(OnOffLaw):

@@ -17,8 +17,10 @@ from ..node_base.parameters import Parameter
 from .mount_model import DEFLECTION, mount_model
 from .semi_active import SEMI_ACTIVE, DampingLaw
 
-TRAVEL = Parameter("travel", 3.0e-3, "Deflection that counts as much as 1 m/s^2 of the powertrain.", "m", 1.0e-4, 1.0)
-FORCE = Parameter("force", 2.0e4, "Force of all mounts that counts as much as 1 m/s^2.", "N", 1.0e3, 1.0e6)
+TRAVEL = Parameter(
+    "travel", 3.0e-3, "Deflection weighted equally with 1 m/s^2 of powertrain acceleration.", "m", 1.0e-4, 1.0
+)
+FORCE = Parameter("force", 2.0e4, "Total mount force weighted equally with 1 m/s^2.", "N", 1.0e3, 1.0e6)
 
 # spectral densities of white noise, of which only the ratios matter
 ROAD_NOISE = 3.0e3**2  # N^2/Hz

@@ -12,7 +12,7 @@ from .base import ControlLaw
 from .engine_speed import EngineSpeedEstimator
 from .semi_active import FIRM, SOFT, check_currents
 
-ORDER = Parameter("order", 2.0, "Lowest order that shakes the powertrain.", "1/revolution", 0.5, 12.0)
+ORDER = Parameter("order", 2.0, "Lowest engine order that excites the powertrain.", "1/revolution", 0.5, 12.0)
 
 _CROSSOVER = 2.0**0.5  # of the resonance; isolation begins there
 _BLEND = 1.15  # from the crossover to this multiple of it the current goes from firm to soft

@@ -15,8 +15,8 @@ on Advanced Automotive Technologies (1997).
 from ..node_base.parameters import Parameter
 from .semi_active import SEMI_ACTIVE, DampingLaw, share_of_velocity
 
-HOOK = Parameter("hook_damping", 4.0e4, "Damping of the imagined damper, a mount.", "N s/m", 0.0, 1.0e6)
-SHARE = Parameter("skyhook_share", 0.5, "Part of the skyhook; the rest is groundhook.", "", 0.0, 1.0)
+HOOK = Parameter("hook_damping", 4.0e4, "Damping of the virtual damper, per mount.", "N s/m", 0.0, 1.0e6)
+SHARE = Parameter("skyhook_share", 0.5, "Share of skyhook; the rest is groundhook.", "", 0.0, 1.0)
 
 
 class Hybrid(DampingLaw):

@@ -13,8 +13,8 @@ from ..node_base.parameters import Parameter, ParameterError
 from .base import ControlLaw
 from .estimator import MotionEstimator, levers, turning
 
-SOFT = Parameter("soft_current", 0.8, "Current of the soft mount.", "A", LOWEST_CURRENT, HIGHEST_CURRENT)
-FIRM = Parameter("firm_current", 3.0, "Current of the firm mount.", "A", LOWEST_CURRENT, HIGHEST_CURRENT)
+SOFT = Parameter("soft_current", 0.8, "Current in the soft state.", "A", LOWEST_CURRENT, HIGHEST_CURRENT)
+FIRM = Parameter("firm_current", 3.0, "Current in the firm state.", "A", LOWEST_CURRENT, HIGHEST_CURRENT)
 CORNER = Parameter("corner", 0.5, "Corner frequency of the estimated velocities.", "Hz", 0.01, 10.0)
 SEMI_ACTIVE = (SOFT, FIRM, CORNER)
 

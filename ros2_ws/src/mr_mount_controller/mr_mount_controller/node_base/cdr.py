@@ -191,7 +191,7 @@ class _Walk:
         if kind is TEXT:
             count = self._take_length(name, 1)
             if not count:  # ROS reads it as an empty text, readers of bags do not read it at all
-                raise LayoutError(f"field {name} has no length, accepted is one that counts the zero at a text's end")
+                raise LayoutError(f"field {name} has no length, must count the terminating zero of the text")
             self._step(count, 1, name)
         elif isinstance(kind, str):
             self._take_numbers(name, kind, 1)

@@ -17,7 +17,7 @@ from rclpy.signals import SignalHandlerOptions
 from .descriptors import descriptor_of
 from .help_text import help_text, wants_help
 from .listener import Listener
-from .parameter_files import given_by_wildcard
+from .parameter_files import given_by_wildcard, without_effect
 from .parameters import Parameter, ParameterError
 from .patience import Patience
 from .plain_text import plain_line, readable
@@ -30,7 +30,7 @@ _ACCEPTED = (
 # rclpy declares these itself
 _OF_EVERY_NODE = (
     Parameter("use_sim_time", False, "Take the time from /clock."),
-    Parameter("start_type_description_service", True, "Tell the definitions of types."),
+    Parameter("start_type_description_service", True, "Offer the service that describes message types."),
 )
 _TICK = 0.1  # s, after which a node that has nothing to do looks at its stop flag
 
@@ -105,7 +105,7 @@ class LoopNode(Node):
         if self.has_parameter(asked.name):
             raise ParameterError(f"parameter '{asked.name}' is fixed while the node runs; give it at the node's start")
         known = ", ".join(sorted(self._changeable)) or "none"
-        raise ParameterError(f"there is no parameter '{asked.name}'; those that may change are: {known}")
+        raise ParameterError(f"unknown parameter '{asked.name}'; parameters that may change are: {known}")
 
     def listen(self, message_type, topic, on_message, qos, read=None):
         """Subscribe as `Listener` does; returns the subscription."""
@@ -128,10 +128,12 @@ class LoopNode(Node):
         for name in unknown:
             if name not in of_others:
                 known = ", ".join(sorted(self.settings))
-                raise ParameterError(f"{self.get_name()}: there is no parameter '{name}'; known are {known}")
+                raise ParameterError(f"{self.get_name()}: unknown parameter '{name}'; known are {known}")
         if unknown:
             names = readable(", ".join(sorted(unknown)))
-            self.get_logger().warning(f"of what a file gives to many nodes, these are no parameters of it: {names}")
+            self.get_logger().warning(
+                f"a parameter file for several nodes contains parameters that this node does not have: {names}"
+            )
 
     def run(self):
         """Do the node's work until it is done or `self.stopping()`; by default answer callbacks."""
@@ -196,7 +198,7 @@ def start_ros(args=()):
         reason = str(error).removeprefix("failed to initialize rcl: ").split(". Error:")[0].split(", at /")[0]
         raise ParameterError(f"arguments of ROS 2: {reason.rstrip('.')}; {_ACCEPTED}") from None
     except UnicodeEncodeError as error:
-        raise ParameterError(f"argument {error.object!r} is no text in UTF-8; {_ACCEPTED}") from None
+        raise ParameterError(f"argument {error.object!r} is not UTF-8 text; {_ACCEPTED}") from None
     finally:
         set_logger_level("rcl", LoggingSeverity.UNSET)
 
@@ -234,6 +236,8 @@ def run_node(make_node, args=None, companions=()):
             nodes[-1].refuse_unknown_parameters(arguments)
             nodes[-1].prepare(lambda timeout: executor.spin_once(timeout_sec=timeout), lambda: bool(stop))
             executor.add_node(nodes[-1])
+        for words in without_effect(arguments, [node.get_fully_qualified_name() for node in nodes]):
+            nodes[-1].get_logger().warning(plain_line(words))
         try:
             nodes[-1].run()
         finally:

@@ -74,7 +74,9 @@ class MessageReader(Checker):
         self.check(data)
         seconds, nanoseconds, *numbers = self._numbers_of(data)
         if seconds < 0 or nanoseconds >= NANO:
-            raise LayoutError(f"time is {seconds} s and {nanoseconds} ns, accepted is 0 s on and less than {NANO} ns")
+            raise LayoutError(
+                f"time is {seconds} s and {nanoseconds} ns, accepted are 0 s or more and less than {NANO} ns"
+            )
         return seconds * NANO + nanoseconds, numbers
 
     def _fit(self, message):

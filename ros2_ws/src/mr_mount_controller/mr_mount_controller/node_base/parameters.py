@@ -49,7 +49,7 @@ class Parameter:
             int: "a whole number",
             float: "a number",
             str: "a text",
-            list: "a list of texts (of none: [''])",
+            list: "a list of strings (none: [''])",
         }
         words = kind[type(self.default)]
         if self.low is not None:

@@ -111,7 +111,7 @@ TOPICS = (
         COIL_CURRENT_TYPE,
         "controller",
         "1 kHz",
-        "The answer: demanded current of each coil, and the stamp of the sample that it answers.",
+        "The answer: demanded current in each coil, and the stamp of the sample it answers.",
         ("simulator",),
     ),
     Topic(
@@ -119,7 +119,7 @@ TOPICS = (
         LAW_PARAMETERS_TYPE,
         "controller",
         "as they change",
-        "Changed parameters of the law; the stamp is the last sample that was answered with the old ones.",
+        "Changed parameters of the law; the stamp is that of the last sample answered with the old values.",
     ),
     Topic(
         MOUNT_STATE,
@@ -133,7 +133,7 @@ TOPICS = (
         MOUNT_DESCRIPTION_TYPE,
         "simulator",
         "once",
-        "The mounts by name, kind and place; how many coils there are.",
+        "Name, kind and position of each mount, and the number of coils.",
         ("controller",),
     ),
     Topic(ODOMETRY, ODOMETRY_TYPE, "simulator", "100 Hz", "Pose and velocity of the hull."),
@@ -142,7 +142,7 @@ TOPICS = (
         DRIVE_STATE_TYPE,
         "simulator",
         "100 Hz",
-        "Distance along the path, wanted speed and curvature, engine speed, gear, speed and torque of the sprockets.",
+        "Distance along the path, demanded speed and curvature, engine speed, gear, speed and torque of the sprockets.",
         ("road_excitation",),
     ),
     Topic(DRIVE_DESCRIPTION, DRIVE_DESCRIPTION_TYPE, "simulator", "once", "The drive file in use; empty if none."),
@@ -151,15 +151,15 @@ TOPICS = (
         COMMAND_TYPE,
         "anybody",
         "any",
-        "Wanted speed (`linear.x`) and yaw rate (`angular.z`), in force from the next control period on.",
+        "Demanded speed (`linear.x`) and yaw rate (`angular.z`), effective from the next control period.",
         ("simulator",),
     ),
     Topic(
         DRIVE_COMMAND,
         COMMAND_TYPE,
         "simulator",
-        "as it takes them",
-        "The command that was taken; its stamp is the simulated time from which on it is in force.",
+        "when accepted",
+        "The accepted command; its stamp is the simulated time from which it is effective.",
     ),
     Topic(
         ROAD_PROFILE,
@@ -170,14 +170,16 @@ TOPICS = (
         ("simulator",),
     ),
     Topic(VEHICLE_DESCRIPTION, VEHICLE_DESCRIPTION_TYPE, "simulator", "once", "The vehicle file in use."),
-    Topic(TF, TF_TYPE, "simulator", "`view_rate`", "Frames of hull, bodies and tensioners, `odom` above them all."),
+    Topic(
+        TF, TF_TYPE, "simulator", "`view_rate`", "Frames of hull, bodies and tensioners, below the root frame `odom`."
+    ),
     Topic(TF_STATIC, TF_TYPE, "simulator", "once, with `view_rate`", "Frames of the sensors on their bodies."),
     Topic(
         JOINT_STATES,
         JOINT_STATES_TYPE,
         "simulator",
         "`view_rate`",
-        "Positions and rates of all joints of the robot description that turn or slide.",
+        "Positions and rates of all movable joints of the robot description.",
     ),
     Topic(
         ROBOT_DESCRIPTION,
@@ -205,7 +207,7 @@ TOPICS = (
         MEASURED_TYPE,
         "simulator",
         "`measure_rate`",
-        "One topic a kind: `suspension_travel`, `damper_force`, `wheel_force`, `ground_force`, `track_tension`, "
+        "One topic per kind: `suspension_travel`, `damper_force`, `wheel_force`, `ground_force`, `track_tension`, "
         "`sprocket_torque`, `engine_speed`.",
     ),
     Topic(
@@ -213,14 +215,14 @@ TOPICS = (
         MEASURED_DESCRIPTION_TYPE,
         "simulator",
         "once, with `measure_rate`",
-        "Unit and meaning of each of these kinds, and what each of its numbers belongs to.",
+        "Unit and meaning of each kind, and the element that each of its numbers belongs to.",
     ),
     Topic(
         RECORDED,
         RECORDED_TYPE,
         "recorder",
         "as it writes",
-        "Time up to which the bag holds every sample: of several topics, the slowest.",
+        "Time up to which the bag holds every sample on all topics.",
         ("simulator",),
     ),
     Topic(
@@ -237,7 +239,7 @@ TOPICS = (
         DIAGNOSTICS_TYPE,
         "simulator",
         "10 Hz",
-        "State and epoch, currents in force, pace, late and rejected answers, saturation, where the time of a period "
-        "and the work on the mounts goes.",
+        "State and epoch, actual currents, pace, late and rejected answers, saturation, "
+        "time per part of a period, energy balance of the mounts.",
     ),
 )

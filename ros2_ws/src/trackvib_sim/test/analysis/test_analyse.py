@@ -79,7 +79,7 @@ def test_what_is_missing_is_said():
     assert found.sensors == analyse(whole, 2.0).sensors
     assert (found.mounts, found.demand, found.lines, found.mount_energy) == ({}, {}, (), None)
     assert np.isnan([found.speed, found.engine_speed]).all() and np.isnan(found.history.current).all()
-    for words in ("no odometry", "engine's speed", "no vehicle description", "no mount_state", "no coil_current"):
+    for words in ("no odometry", "no engine speed", "no vehicle description", "no mount_state", "no coil_current"):
         assert sum(words in note for note in found.notes) == 1, words
     assert (found.loop["unanswered"], found.loop["answered_twice"]) == (None, None)
     early = whole._replace(odometry=type(whole.odometry)(*(column[:100] for column in whole.odometry)))
@@ -99,9 +99,9 @@ def test_samples_that_are_no_numbers_are_noted():
     )
     found = analyse(odd)
     assert found.notes == (
-        "chassis/imu: samples that are no numbers: 2; each ends a stretch as a gap does",
+        "chassis/imu: samples that are not finite: 2; each splits the recording like a gap",
         "chassis/imu: gaps: 1, in which 2 samples are missing",
-        "mount_state: samples that are no numbers: 1",
+        "mount_state: samples that are not finite: 1",
     )
     assert np.isfinite(found.sensors["chassis"]["x"].rms)
     assert np.isfinite(build_report_data(odd, found).deflection_loops["right"].density).any()
@@ -141,7 +141,7 @@ def test_recordings_that_cannot_be_measured_are_refused():
     stamp[-1] = 2**62
     found = analyse(whole._replace(chassis=whole.chassis._replace(stamp=stamp)))
     assert found.duration == 4.999 and found.measured == pytest.approx(2.999)
-    assert "chassis/imu: 1 samples stand apart or next to lost ones, left out" in found.notes
+    assert "chassis/imu: 1 samples are isolated or next to lost ones, left out" in found.notes
 
 
 @pytest.mark.property

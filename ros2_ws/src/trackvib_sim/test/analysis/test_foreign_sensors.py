@@ -103,7 +103,7 @@ def test_gravity_is_removed_by_orientation(tmp_path):
     found = in_vehicle_axes(recording, sources).chassis.specific_force
     np.testing.assert_allclose(found, shaken, atol=1e-9)
     without = write_bag(tmp_path / "b.mcap", {"/chassis/imu": stream(time)})
-    with pytest.raises(ValueError, match="chassis gives no orientation to remove gravity by; `--gravity mean`"):
+    with pytest.raises(ValueError, match="chassis has no orientation for removing gravity; `--gravity mean`"):
         in_vehicle_axes(read_recording(without, sources=sources), sources)
 
 

@@ -42,7 +42,7 @@ def test_a_sample_that_is_no_number_ends_a_stretch(name):
     assert found.measured == pytest.approx(6.0, abs=0.01)
     for each, gain in GAINS.items():
         assert found.sensors[each]["z"].rms == pytest.approx(gain * RMS_Z, rel=0.01)
-    assert any(f"{name}/imu: samples that are no numbers: 1" in note for note in found.notes)
+    assert any(f"{name}/imu: samples that are not finite: 1" in note for note in found.notes)
     assert np.isfinite(found.spectra.coherence[:, 2]).all()
 
 

@@ -161,7 +161,7 @@ TEXTS = {
     "list": "- 1",
     "odd types": "[!!set {a, b}, !!binary aGk=, 2001-01-01, .nan]",
     "python": "!!python/object/apply:os.system [id]",
-    "signs": 'rosbag2_bagfile_information: "\\e[31m\\a"',
+    "characters": 'rosbag2_bagfile_information: "\\e[31m\\a"',
     "nonsense": "rosbag2_bagfile_information: {relative_file_paths: 7, message_count: []}",
 }
 NAMES = (

@@ -84,7 +84,7 @@ def test_what_does_not_fit_is_refused():
         Definition(NAME, "ros2msg", incomplete)
     with pytest.raises(LayoutError, match="is in 'protobuf', accepted are ros2msg, ros2idl"):
         Definition(NAME, "protobuf", b"")
-    with pytest.raises(LayoutError, match="definition of some_msgs/msg/Mixed is not there"):
+    with pytest.raises(LayoutError, match="definition of some_msgs/msg/Mixed is missing"):
         Definition(NAME, "ros2msg", b"")
     with pytest.raises(LayoutError, match="cannot be read"):
         Definition(NAME, "ros2msg", b"float64 = = 3 [")

@@ -40,7 +40,7 @@ def test_the_list_in_the_metadata_counts(split):
     assert names(split) == list(SPLITS)
     recording = read_recording(split)
     assert recording.counts["/chassis/imu"] == 40
-    assert recording.notes == ("not among the files that metadata.yaml lists, left out: recovered.mcap",)
+    assert recording.notes == ("not listed in metadata.yaml, left out: recovered.mcap",)
     assert contents(split).notes == recording.notes
 
 
@@ -59,7 +59,7 @@ def test_files_that_were_renamed_are_found(split):
     (split / SPLITS[0]).rename(split / "y.mcap")
     found = find_files(split)
     assert [file.name for file in found.files] == ["y.mcap", "z.mcap"] and found.beside == []
-    assert found.notes == (f"listed by metadata.yaml, not there: {SPLITS[0]}, {SPLITS[1]}",)
+    assert found.notes == (f"listed in metadata.yaml, missing: {SPLITS[0]}, {SPLITS[1]}",)
 
 
 def test_a_list_leads_nowhere_else(split, tmp_path):
@@ -84,7 +84,7 @@ def test_a_split_of_which_nothing_was_written(split, name, content):
     (split / name).write_bytes(content)
     recording = read_recording(split)
     assert recording.counts["/chassis/imu"] == 20
-    assert recording.notes == (f"empty or no MCAP, left out: {name} (`trackvib bag repair` sets it aside)",)
+    assert recording.notes == (f"empty or not MCAP, left out: {name} (`trackvib bag repair` renames it)",)
     done = repair(split)
     assert [(file.file.name, file.flaw, file.original.name) for file in done.files] == [
         (name, NO_MCAP, f"{name}.damaged")
@@ -100,7 +100,7 @@ def test_a_bag_of_nothing_is_refused(split):
         (split / name).write_bytes(b"")
     with pytest.raises(BagError, match="split' cannot be read"):
         read_recording(split)
-    with pytest.raises(BagError, match=rf"{SPLITS[0]}' is no MCAP file"):
+    with pytest.raises(BagError, match=rf"{SPLITS[0]}' is not an MCAP file"):
         repair(split)
     assert all((split / name).exists() for name in SPLITS)
 

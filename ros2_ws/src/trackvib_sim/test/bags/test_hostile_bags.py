@@ -46,11 +46,11 @@ def sound(request):
 
 
 def _is_refused(bag):
-    """Whether both reading and repair say that it is no MCAP file."""
+    """Whether both reading and repair say that it is not an MCAP file."""
     try:
         messages(bag)
     except BagError:
-        with pytest.raises(BagError, match="is no MCAP file"):
+        with pytest.raises(BagError, match="is not an MCAP file"):
             repair(bag)
         return True
     return False

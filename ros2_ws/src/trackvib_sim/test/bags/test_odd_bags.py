@@ -99,7 +99,7 @@ def test_a_damaged_chunk_is_named_with_the_way_out(bag, tmp_path):
     data = bytearray(next(bag.glob("*.mcap")).read_bytes())
     data[len(data) // 2] ^= 1
     (tmp_path / "bag_0.mcap").write_bytes(data)
-    with pytest.raises(BagError, match="damaged at byte .*bag repair` keeps all else"):
+    with pytest.raises(BagError, match="damaged at byte .*bag repair` keeps everything else"):
         read_recording(tmp_path)
 
 
@@ -163,7 +163,7 @@ def test_channels_without_a_definition_are_counted(bag, rewritten):
     recording = read_recording(rewritten(bag, more=log))
     np.testing.assert_array_equal(recording.chassis.stamp, read_recording(bag).chassis.stamp)
     assert (recording.counts["/log"], recording.counts["/other/chassis/imu"]) == (1, 1)
-    with pytest.raises(BagError, match="which nothing announces"):
+    with pytest.raises(BagError, match="which is not declared"):
         read_recording(rewritten(bag, more=lambda writer: log(writer, 99)))
 
 

@@ -175,7 +175,7 @@ def test_nonsense_is_refused_and_left_as_it_was(tmp_path):
         repair(tmp_path)
     for content in (b"", b"\x89MCA", b"not a bag at all"):
         (tmp_path / NAME).write_bytes(content)
-        with pytest.raises(BagError, match="bag_0.mcap' is no MCAP file"):
+        with pytest.raises(BagError, match="bag_0.mcap' is not an MCAP file"):
             repair(tmp_path)
         assert [(file.name, file.read_bytes()) for file in tmp_path.iterdir()] == [(NAME, content)]
 
@@ -185,7 +185,7 @@ def test_nothing_is_overwritten(sound, copy):
     data = sound.data[:-50]
     (copy / NAME).write_bytes(data)
     (copy / f"{NAME}.damaged").write_bytes(b"precious")
-    with pytest.raises(BagError, match="exists already"):
+    with pytest.raises(BagError, match="already exists"):
         repair(copy)
     assert (copy / f"{NAME}.damaged").read_bytes() == b"precious" and (copy / NAME).read_bytes() == data
 

@@ -64,7 +64,7 @@ def test_further_sensors_by_name_beside_the_usual_ones(tmp_path):
 @pytest.mark.property
 def test_sensors_told_twice_are_refused():
     """One topic cannot be two sensors, and an angle is a number."""
-    with pytest.raises(SourceError, match="named for two sensors"):
+    with pytest.raises(SourceError, match="given for two sensors"):
         Sources({"chassis": "/x", "powertrain": "x"})
     with pytest.raises(SourceError, match="roll, pitch and yaw"):
         Sources(rotations={"": (0.0, float("nan"), 0.0)})

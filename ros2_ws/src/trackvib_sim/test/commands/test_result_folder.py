@@ -14,7 +14,7 @@ def test_what_was_made_stays(tmp_path):
     with all_or_nothing(tmp_path / "a" / "b") as folder:
         (folder / "result").write_text("1")
     assert (tmp_path / "a" / "b" / "result").read_text() == "1"
-    with pytest.raises(CommandError, match="exists already"), all_or_nothing(tmp_path / "a" / "b"):
+    with pytest.raises(CommandError, match="already exists"), all_or_nothing(tmp_path / "a" / "b"):
         pass
     assert (tmp_path / "a" / "b" / "result").read_text() == "1"
 

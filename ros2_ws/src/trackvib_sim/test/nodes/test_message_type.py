@@ -17,7 +17,7 @@ def test_a_message_is_found_by_its_name():
     [
         ("sensor_msgs/msg/Odd", "message type sensor_msgs/msg/Odd is not installed"),
         ("odd_msgs/msg/Imu", "message type odd_msgs/msg/Imu is not installed"),
-        ("std_srvs/srv/Trigger_Event", "std_srvs/srv/Trigger_Event is no message type"),
+        ("std_srvs/srv/Trigger_Event", "std_srvs/srv/Trigger_Event is not a message type"),
     ],
 )
 def test_others_are_named(name, words):

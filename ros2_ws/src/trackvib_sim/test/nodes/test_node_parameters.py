@@ -31,11 +31,24 @@ def parameters(tmp_path):
 
 @pytest.mark.property
 def test_the_last_counts(parameters):
-    """Of sections in one file, of files, and of values one by one; sections for others are passed over."""
+    """Of sections in one file, of files, and of values one by one; sections for others are skipped."""
     names = ("speed", "seed", "duration", "gears")
     assert [parameters.get("simulator", name) for name in names] == [2.0, 3, 10.0, True]
     assert [parameters.get("road", name) for name in ("speed", "seed", "inner.left")] == [2.0, 5, 4]
     assert parameters.get("road", "duration", 7.0) == 7.0
+
+
+@pytest.mark.property
+def test_sections_for_no_node_are_named(parameters, tmp_path):
+    """Once, with the nodes that there are; a file with no others is refused."""
+    words = "has sections for /other/simulator, but the nodes here are /lab/simulator, /lab/road"
+    assert [note.split("' ", 1)[1] for note in parameters.notes] == [words]
+    (tmp_path / "nested").write_text("right: {simulator: {ros__parameters: {speed: 3.0}}}")
+    with pytest.raises(
+        ParameterError, match="nested' has sections for /right/simulator, but the nodes here are /lab/s"
+    ):
+        parameters.read(tmp_path / "nested")
+    assert parameters.get("simulator", "speed") == 2.0
 
 
 @pytest.mark.cross_engine

@@ -100,7 +100,7 @@ def test_road_at_hand_is_there_for_both_ways():
     ("start", "spacing", "left", "right", "words"),
     [
         (0.0, 0.05, [0.0], [0.0], ("left has 1 samples and right 1", "at least 2")),
-        (0.0, 0.05, [0.0, 1.0, 2.0], [0.0, 1.0], ("left has 3 samples and right 2", "as many")),
+        (0.0, 0.05, [0.0, 1.0, 2.0], [0.0, 1.0], ("left has 3 samples and right 2", "equal numbers")),
         (0.0, 0.0, [0.0, 1.0], [0.0, 1.0], ("spacing is 0.0 m", "0.001 to 100.0 m")),
         (0.0, -0.1, [0.0, 1.0], [0.0, 1.0], ("spacing is -0.1 m", "0.001 to 100.0 m")),
         (0.0, float("nan"), [0.0, 1.0], [0.0, 1.0], ("spacing is nan m", "0.001 to 100.0 m")),
@@ -156,7 +156,7 @@ def test_a_flood_of_patches_is_bounded():
     """Road far ahead, which nobody will forget, is taken up to a limit; what is driven on stays."""
     store, many = RoadStore(), np.zeros(5_000_000)
     put(store, -1000, 2000)
-    with pytest.raises(ValueError, match="samples are held already, 5000000 more are beyond 20000000"):
+    with pytest.raises(ValueError, match="samples are already held, 5000000 more exceed 20000000"):
         for k in range(1, 5):
             store.add(k * 1e6, SPACING, many, many)
     assert store.around(-1.0, 5.0).height.shape[1] == 2000

@@ -118,7 +118,7 @@ GAP = np.where(np.arange(20).reshape(4, 5) == 13, np.nan, GRID)
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"head": "no file of this kind\n"}, "is no OpenCRG file"),
+        ({"head": "no file of this kind\n"}, "is not an OpenCRG file"),
         ({"kind": "KDBI", "head": HEAD.replace("{kind}", "ABCD")}, "data are ABCD, accepted are LRFI, LDFI, KRBI"),
         ({"channels": ""}, "0 channels, accepted are 1 to"),
         ({"head": HEAD.replace("REFERENCE_LINE_INCREMENT = 0.5", "X = 1")}, "REFERENCE_LINE_INCREMENT is None"),
@@ -133,14 +133,14 @@ GAP = np.where(np.arange(20).reshape(4, 5) == 13, np.nan, GRID)
         ({"data": b""}, "0 rows, accepted are 2 to"),
         ({"head": HEAD.replace("= 0.5", "= -0.5")}, "REFERENCE_LINE_INCREMENT is -0.5"),
         ({"head": HEAD.replace("$ROAD_CRG  ", "$ROAD_CRG_FILE\nother.crg\n$ROAD_CRG")}, "only refers to another file"),
-        ({"data": as_bytes(GRID, ">f8")[:152]}, "cut short: 19 numbers are no whole rows of 5"),
+        ({"data": as_bytes(GRID, ">f8")[:152]}, "cut short: 19 numbers do not make whole rows of 5"),
         ({"grid": GRID[:1]}, "1 rows, accepted are 2 to"),
         ({"kind": "LRFI", "data": as_text(GRID, 10, 8).replace(b"0.0100000", b"0.0l00000")}, "row 1 begins .* numbers"),
         ({"kind": "LRFI", "data": as_text(GRID[:, :4], 10, 8)}, "row 1 has 4 numbers, must have 5"),
         ({"grid": with_phi(0.3), "channels": f"D:reference line phi,rad\n{SECTIONS}"}, "with a curve.* 0.3 rad"),
         ({"grid": GAP}, "no height in row 3 at 1.4 m across"),
         ({"head": HEAD.replace("2.0", "0.5").replace("= 1.0", "= 0.25")}, "reaches from -0.5 to 0.5 m across"),
-        ({"head": HEAD.replace("LONG_SECTION_V_INCREMENT", "X")}, "does not tell where its 5 long sections lie"),
+        ({"head": HEAD.replace("LONG_SECTION_V_INCREMENT", "X")}, "does not give the positions of its 5 long sections"),
     ],
 )  # fmt: skip
 def test_bad_files_are_refused(surface, change, words):

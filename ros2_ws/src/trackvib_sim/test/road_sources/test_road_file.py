@@ -93,7 +93,7 @@ def test_obstacles_alone_stand_on_level_ground(described):
         ("spacing: 0\nobstacles: []", "spacing is 0"),
         ("hills: 3", "hills"),
         ("ground: {class: C}\nspacing: 0.2", "spacing is 0.2 m, must be at most 0.177 m for waves up to 2.83 1/m"),
-        ("ground: {class: C, waviness: 3}", "waviness is given beside a class"),
+        ("ground: {class: C, waviness: 3}", "waviness is given with a class"),
         ("ground: {level: 1, waviness: 4, lowest: 1.0e-3}", "an RMS value of .* accepted: 10"),
         ("ground: {level: .nan}", "level is nan"),
         ("ground: {file: road.yaml}", "road.yaml.*not a valid MCAP file"),

@@ -51,7 +51,7 @@ def _quantities(items, section):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("a: &x [1, 2]\nb: *x", "my.yaml: not a YAML file: alias *x is not accepted, write it out"),
+        ("a: &x [1, 2]\nb: *x", "my.yaml: not a YAML file: alias *x is not accepted, write the value out"),
         ("[" * 3000, "my.yaml: not a YAML file: nested too deeply, accepted are 50 levels"),
     ],
 )
@@ -97,7 +97,7 @@ BAD = [
     (MASS, MASS.replace("9000.0", "[1.0]"), ("bodies.turret.mass is [1.0]", "number")),
     (MASS, "mass: 9000.0", ("bodies.turret.mass", "must be written {value: ..., unit: kg, source: ...}")),
     (MASS, MASS.replace("source", "origin"), ("bodies.turret.mass", "must be written", "source: ...")),
-    (MASS, MASS.replace("}", ", error: 5.0}"), ("bodies.turret.mass", "must be written", "a note may follow")),
+    (MASS, MASS.replace("}", ", error: 5.0}"), ("bodies.turret.mass", "must be written", "optionally with a note")),
     ("centre: {value: [-0.15, 0.0, 0.35]", "centre: {value: [-0.15, 0.35]", ("bodies.turret.centre", "at least 3")),
     ("centre: {value: [-0.15, 0.0, 0.35]", "centre: {value: [0, .nan, 0]", ("bodies.turret.centre.1 is nan", "finite")),
     ("orders: {value: [2.0, 3.0, 6.0]", "orders: {value: [2.0, 3.0]", ("engine", "force has 3 rows", "each order")),

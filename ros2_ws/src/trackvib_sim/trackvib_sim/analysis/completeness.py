@@ -16,11 +16,11 @@ def missing(recording):
     """Return in words what a `bags.recording.Recording` of a run in lock-step lacks, one text for each part.
 
     Empty if it has every sample of the vehicle's sensors, mount state and answer that the simulator counted, the road
-    under them, the vehicle, and the simulator's last word itself.
+    under them, the vehicle, and the simulator's final diagnostics itself.
     """
     counts = recording.diagnostics
     if counts.get("state") not in _ENDS:
-        return ["the simulator's last word"]
+        return ["the simulator's final diagnostics"]
     period = period_of(recording.chassis.stamp)
     stamps = period * np.arange(1, round(float(counts["time"]) * NANO / period) + 1)
     try:

@@ -31,7 +31,7 @@ def missing_causes(recording, motion):
         where = "in the bag" if recording.odometry is None else "after the settling time"
         notes.append(f"no odometry {where}: no speed, nothing by speed, no levels of link passing")
     if isnan(motion.engine_speed):
-        notes.append("the bag does not tell the engine's speed: no levels of its orders")
+        notes.append("no engine speed in the bag: no levels of its orders")
     return notes
 
 

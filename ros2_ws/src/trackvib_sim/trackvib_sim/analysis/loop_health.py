@@ -21,7 +21,7 @@ def loop_health(recording):
 
 
 def drive(recording):
-    """Return mean force [N] and power [W] of the drive from the start to the simulator's last word, nan if unknown."""
+    """Return mean force [N] and power [W] of the drive up to the simulator's final diagnostics, nan if unknown."""
     work, way, time = (float(recording.diagnostics.get(key, "nan")) for key in DRIVE)
     return work / way if abs(way) >= LEAST_WAY else np.nan, work / time if time > 0.0 else np.nan
 

@@ -46,8 +46,8 @@ def unit_notes(sensors):
     """Say which sensors look as if they were recorded in g, of their `AxisNumbers` by axis."""
     means = {name: np.linalg.norm([numbers.mean for numbers in axes.values()]) for name, axes in sensors.items()}
     return [
-        f"{name}: the mean acceleration is {mean:.3g} where gravity is 9.81 m/s²: it looks like g, and `--unit g` "
-        "converts"
+        f"{name}: the mean acceleration is {mean:.3g} where gravity is 9.81 m/s²: the unit seems to be g; use "
+        "`--unit g`"
         for name, mean in means.items()
         if _is_near(mean, 1.0)
     ]

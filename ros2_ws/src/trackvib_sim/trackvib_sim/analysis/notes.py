@@ -9,7 +9,7 @@ from .stamps import BLOCK, blocks
 _NEARLY = 1e-3  # relative, by which a rate may miss what it is meant to be
 _WITHOUT = {  # what cannot be had of a bag without these topics
     topics.MOUNT_STATE: "no numbers of the mounts",
-    topics.COIL_CURRENT: "no demanded currents, and nobody knows which samples were answered",
+    topics.COIL_CURRENT: "no demanded currents, so it is unknown which samples were answered",
 }
 
 
@@ -17,7 +17,7 @@ def find_notes(recording, segments):
     """Return what was found wrong with a recording and its `Segments`, and what cannot be had of it."""
     notes = []
     if not recording.complete:
-        notes.append("the bag was cut short; what there is of it counts (`trackvib bag repair` completes it)")
+        notes.append("the bag was cut short; what it holds is used (`trackvib bag repair` repairs it)")
     odd = {end: _not_finite(columns) for end, columns in recording.streams.items()}
     for end, found in segments.timing.items():
         missing = "1 sample is" if found.missing == 1 else f"{found.missing} samples are"
@@ -25,7 +25,7 @@ def find_notes(recording, segments):
             f"gaps: {found.gap_count}, in which {missing} missing": found.gap_count,
             f"samples within half a period of the one before: {found.repeated}": found.repeated,
             f"samples older than the one before: {found.backward}": found.backward,
-            f"samples that are no numbers: {odd[end]}": odd[end]
+            f"samples that are not finite: {odd[end]}": odd[end]
             % found.samples,  # of a sensor that measured nothing all
         }
         notes += [f"{end}: {text}" for text, count in counts.items() if count]

@@ -51,7 +51,7 @@ def _rotation(recording, origin, angles):
 
 def _require_orientation(name, inertial):
     if inertial.orientation is None or (inertial.orientation_covariance[:] == NOT_MEASURED).any():
-        raise ValueError(f"{name} gives no orientation to remove gravity by; `--gravity mean` needs none")
+        raise ValueError(f"{name} has no orientation for removing gravity; `--gravity mean` needs none")
 
 
 def _placed(inertial, rotation, upright):
@@ -63,7 +63,7 @@ def _placed(inertial, rotation, upright):
         if upright:
             attitude = rotation_of(np.array(inertial.orientation[block]))
             if attitude is None:
-                raise ValueError("an orientation is no rotation; `--gravity mean` needs none")
+                raise ValueError("an orientation is not a rotation; `--gravity mean` needs none")
             within -= STANDARD_GRAVITY * attitude[:, 2]  # the third row: up, as the sensor sees it
         force[block] = within @ rotation.T
     return inertial._replace(specific_force=force)

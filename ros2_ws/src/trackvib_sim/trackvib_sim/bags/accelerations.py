@@ -89,7 +89,7 @@ class Accelerations:
             if candidates:
                 found[name] = candidates[0]
         if len(spaces) > 1:
-            raise ValueError(f"it holds sensors of several vehicles, must be one: {self.listed()}")
+            raise ValueError(f"it holds sensors of several vehicles, must be of one: {self.listed()}")
         space = min(spaces, default="/")
         for topic in sorted(self._columns):  # further ones beside the two
             name = topic.removeprefix(space).removesuffix(topics.imu_topic(""))

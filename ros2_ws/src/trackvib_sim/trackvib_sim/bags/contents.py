@@ -68,11 +68,11 @@ def _summary(file):
             with opened(file) as stream:
                 magic = stream.read(len(MCAP0_MAGIC))
     except InvalidMagic:
-        raise BagError(f"{str(file)!r} is no MCAP file") from None
+        raise BagError(f"{str(file)!r} is not an MCAP file") from None
     except (OSError, TooLarge, ZstdError) as error:
         raise BagError(f"{str(file)!r} cannot be read: {getattr(error, 'strerror', None) or error}") from None
     if summary is not None:
         return summary
     if magic != MCAP0_MAGIC:
-        raise BagError(f"{str(file)!r} is no MCAP file")
-    raise BagError(f"{str(file)!r} was cut short or is damaged; `trackvib bag repair` completes it")
+        raise BagError(f"{str(file)!r} is not an MCAP file")
+    raise BagError(f"{str(file)!r} was cut short or is damaged; `trackvib bag repair` repairs it")

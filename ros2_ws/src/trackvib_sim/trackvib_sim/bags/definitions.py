@@ -52,7 +52,7 @@ class Definition:
         except (TypesysError, ValueError, LookupError) as error:
             raise UnreadableDefinition(f"definition of {type_name} cannot be read: {error}") from None
         if type_name not in self._store.fielddefs:
-            raise UnreadableDefinition(f"definition of {type_name} is not there, nor is the type a well-known one")
+            raise UnreadableDefinition(f"definition of {type_name} is missing, and the type is not a well-known one")
         self.kind = self._kind((Nodetype.NAME, type_name), "", _DEPTH)
 
     def message(self, data):

@@ -33,13 +33,9 @@ class BagFiles(NamedTuple):
             ", ".join(readable(name) for name in names) for names in (self.beside, self.absent, unreadable)
         )
         return (
-            *([f"not among the files that {METADATA} lists, left out: {beside}"] if beside else []),
-            *([f"listed by {METADATA}, not there: {absent}"] if absent else []),
-            *(
-                [f"empty or no MCAP, left out: {unreadable} (`trackvib bag repair` sets it aside)"]
-                if unreadable
-                else []
-            ),
+            *([f"not listed in {METADATA}, left out: {beside}"] if beside else []),
+            *([f"listed in {METADATA}, missing: {absent}"] if absent else []),
+            *([f"empty or not MCAP, left out: {unreadable} (`trackvib bag repair` renames it)"] if unreadable else []),
         )
 
 
@@ -78,7 +74,7 @@ def _files(path):
         hint = f"; did you mean {str(inside)!r}?" if inside.is_dir() else ""  # of a run's folder
         if any(each.suffix in (".db3", ".bag") for each in path.glob("*.*")):
             hint = f"; {how_to_convert(path)}"
-        raise BagError(f"bag {str(path)!r} {'holds no .mcap file' if path.is_dir() else 'is not there'}{hint}")
+        raise BagError(f"bag {str(path)!r} {'holds no .mcap file' if path.is_dir() else 'does not exist'}{hint}")
     listed = _listed(path)
     found, beside = [there[name] for name in listed if name in there], sorted(there.keys() - listed)
     if not found:  # of a bag whose files were renamed the list tells nothing

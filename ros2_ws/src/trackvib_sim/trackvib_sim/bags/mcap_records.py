@@ -49,7 +49,7 @@ def parse(opcode, content):
         return None
     if opcode == Opcode.MESSAGE_INDEX:
         if not is_message_index(content):
-            raise ValueError("an index of messages that has another length than it says")
+            raise ValueError("a message index whose length is wrong")
         return None
     stream = _Exact(BytesIO(content))
     record = _KINDS[opcode].read(stream)

@@ -139,7 +139,7 @@ def examine(file, told=lambda done: None):
     Raises
     ------
     mcap.exceptions.InvalidMagic, TooLarge, OSError
-        It is no MCAP file, a record needs too much memory, or the system cannot read it.
+        It is not an MCAP file, a record needs too much memory, or the system cannot read it.
     """
     summary, counts, times, compressed = Summary(), Counter(), [], False
     with opened(Path(file)) as stream:
@@ -198,7 +198,7 @@ def _flaw(walk, told, found):
         and len(told.metadata_indexes) in (0, len(found.metadata_indexes))
         and len(told.attachment_indexes) in (0, len(found.attachment_indexes))
     )
-    return "" if agrees else "with an index that does not say what it holds"
+    return "" if agrees else "with an index that does not match its contents"
 
 
 def _agree(told, found):

@@ -35,11 +35,11 @@ class Damage(NamedTuple):
     """Bytes that hold no whole record, or a record that says something wrong of itself."""
 
     place: int  # first byte
-    size: int  # bytes that were passed over
+    size: int  # bytes that were skipped
     reason: str
 
     def __str__(self):
-        passed = f", {self.size} bytes passed over" if self.size else ""
+        passed = f", {self.size} bytes skipped" if self.size else ""
         return f"byte {self.place}: {self.reason}{passed}"
 
 
@@ -79,7 +79,7 @@ class Walk:
         Raises
         ------
         mcap.exceptions.InvalidMagic
-            It is no MCAP file.
+            It is not an MCAP file.
         TooLarge
             A record needs more memory than is accepted.
         """

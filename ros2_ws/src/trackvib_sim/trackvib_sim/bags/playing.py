@@ -164,7 +164,7 @@ class OpenBag:
         data, start, size = unfold_messages(part.data, start, size)
         ends = np.cumsum(size)
         if self._size + ends[-1] > self._most:
-            raise too_large("what the bag holds", self._size + int(ends[-1]))
+            raise too_large("the contents of the bag", self._size + int(ends[-1]))
         places = np.empty(len(start), _PLACE)
         places["time"], places["size"], places["connection"] = head["log_time"], size, connection
         places["start"] = self._size + ends - size
@@ -178,6 +178,6 @@ def _require_sound(file):
     try:
         findings = examine(file)
     except InvalidMagic:
-        raise ValueError(f"{file.name!r} is no MCAP file") from None
+        raise ValueError(f"{file.name!r} is not an MCAP file") from None
     if findings.flaw:
-        raise ValueError(f"{file.name!r} is {findings.flaw}; `trackvib bag repair` completes it")
+        raise ValueError(f"{file.name!r} is {findings.flaw}; `trackvib bag repair` repairs it")

@@ -130,7 +130,7 @@ class _Reading:
                     channel = channels.get(number)
                     schema = schemas.get(channel.schema_id) if channel else None
                     if channel is None or (schema is None and channel.schema_id != NO_SCHEMA):
-                        raise ValueError(f"messages on channel {number}, which nothing announces")
+                        raise ValueError(f"messages on channel {number}, which is not declared")
                     of_channel = numbers == number
                     start, size = part.messages.start[of_channel], part.messages.size[of_channel]
                     self._counts[channel.topic] += len(start)
@@ -259,4 +259,4 @@ def _require_undamaged(walk):
     """Numbers with a hole that nobody sees are worse than none."""
     for damage in walk.damage:
         if damage.size:
-            raise ValueError(f"it is damaged at {damage}; `trackvib bag repair` keeps all else")
+            raise ValueError(f"it is damaged at {damage}; `trackvib bag repair` keeps everything else")

@@ -156,5 +156,5 @@ class Recording(NamedTuple):
         for end, stream in self.streams.items():
             back = np.flatnonzero(np.diff(stream[0]) <= 0) if isinstance(stream, (Inertial, Mounts)) else ()
             if len(back):
-                after = f"after t = {stream.stamp[back[0]] / NANO:.3f} s {self.topics[end]} begins anew"
+                after = f"after t = {stream.stamp[back[0]] / NANO:.3f} s {self.topics[end]} starts again"
                 raise BagError(f"bag {str(self.path)!r} holds more than one run: {after}")

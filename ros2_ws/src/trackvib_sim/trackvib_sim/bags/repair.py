@@ -34,7 +34,7 @@ class RepairedFile(NamedTuple):
     flaw: str  # why it was written anew
     messages: int  # kept
     lost: int | None  # messages that its index counted and nobody can read; None without an index
-    damage: list  # of `Damage`: all that was passed over
+    damage: list  # of `Damage`: all that was skipped
     unread: int  # bytes at its end that are no whole record
     original: Path  # the file as it was
 
@@ -90,7 +90,7 @@ def _repair_file(file, told):
             repaired = _written_anew(file, findings, lambda done: told((size + done) // 2, size))
             return repaired, examine(unfolded(file))
         except InvalidMagic:
-            raise BagError(f"{str(file)!r} is no MCAP file") from None
+            raise BagError(f"{str(file)!r} is not an MCAP file") from None
         except (TooLarge, ZstdError) as error:
             raise BagError(f"{str(file)!r} cannot be repaired: {error}") from None
 

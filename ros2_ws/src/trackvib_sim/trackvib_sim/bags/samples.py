@@ -84,7 +84,7 @@ def _require_one_run(stamp, time, connections):
     if len(back) or len(again) > _REPEATED * len(stamp):
         first = stamp[back[0] if len(back) else again[0]]
         raise BagError(
-            f"the bag holds more than one run: after t = {first / NANO:.3f} s {connections[0].topic} begins anew"
+            f"the bag holds more than one run: after t = {first / NANO:.3f} s {connections[0].topic} starts again"
         )
 
 

@@ -32,7 +32,7 @@ class Sources:
         absolute = [topic if is_csv(topic) else f"/{topic.lstrip('/')}" for topic in self.topics.values()]
         for topic in absolute:
             if absolute.count(topic) > 1:
-                raise SourceError(f"{topic!r} is named for two sensors, must be one")
+                raise SourceError(f"{topic!r} is given for two sensors, must be for one")
         for angles in self.rotations.values():
             if len(angles) != 3 or not all(map(isfinite, angles)):
                 raise SourceError(f"a rotation is {angles}, accepted are roll, pitch and yaw in degrees")

@@ -92,10 +92,10 @@ def unfolded_parts(stream):
 def _message(data, most):
     claim = zstd_claim(data)
     if claim is not None and claim > most:
-        raise too_large("a message, unfolded, or all those of a chunk,", claim)
+        raise too_large("a decompressed message or chunk", claim)
     message = _zstd(data, most + 1)
     if len(message) > most:
-        raise too_large("a message, unfolded, or all those of a chunk,", len(message))
+        raise too_large("a decompressed message or chunk", len(message))
     if claim not in (None, len(message)):
         raise ValueError(f"a compressed message of {claim} bytes holds {len(message)}")
     return message

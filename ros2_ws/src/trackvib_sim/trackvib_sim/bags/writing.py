@@ -37,9 +37,9 @@ class BagWriter:
         try:
             self.path.mkdir(parents=True)
         except FileExistsError:
-            raise BagError(f"bag {str(path)!r} exists already; nothing is overwritten") from None
+            raise BagError(f"bag {str(path)!r} already exists; nothing is overwritten") from None
         except OSError as error:
-            raise BagError(f"bag {str(path)!r} cannot be made: {error.strerror}") from None
+            raise BagError(f"bag {str(path)!r} cannot be created: {error.strerror}") from None
         try:
             self._file = (self.path / f"{self.path.name}_0.mcap").open("xb")
             with suppress(OSError):  # where files cannot be locked, none is
@@ -49,7 +49,7 @@ class BagWriter:
             self._mcap.flush()
         except OSError as error:
             shutil.rmtree(self.path, ignore_errors=True)
-            raise BagError(f"bag {str(path)!r} cannot be made: {error.strerror}") from None
+            raise BagError(f"bag {str(path)!r} cannot be created: {error.strerror}") from None
         self._channels = {}  # topic -> channel id
         self.counts = Counter()
 

@@ -55,7 +55,7 @@ def run_analyze(bags, settle, interval, speed_band, out, time, unit, sources):
     for table in (_levels(analyses), _speeds(analyses), _lines(analyses), _mounts(analyses)):
         if table.row_count:
             console.print(table)
-    console.print(f"left in {folder}: {', '.join(sorted(each.name for each in folder.iterdir()))}", soft_wrap=True)
+    console.print(f"written to {folder}: {', '.join(sorted(each.name for each in folder.iterdir()))}", soft_wrap=True)
 
 
 def measure(bag, progress, settle, interval, speed_band, time, unit, sources):

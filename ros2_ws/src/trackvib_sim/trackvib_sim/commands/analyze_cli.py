@@ -27,10 +27,10 @@ from .sensor_options import sensor_options
     "--out",
     type=click.Path(file_okay=False),
     default=None,
-    help="Folder to make for the results.  [default: analyses/<time>]",
+    help="Folder to create for the results.  [default: analyses/<time>]",
 )
 def analyze(bags, settle, interval, speed_band, out, time, unit, sources):
-    """Turn bags, or CSV files of samples, into an HTML report and numbers.
+    """Analyze bags or CSV files of samples: an HTML report, and the numbers as files.
 
     RMS, ISO 2631-1 and absorbed power, by way and by speed, too; spectra, orders of the engine, mounts and currents:
     report.html for the eye (of several bags a comparison), JSON, CSV and

@@ -51,17 +51,17 @@ def _words(file):
     """Yield what became of a `RepairedFile`, line by line."""
     yield f"{file.file}: was {file.flaw}"
     if file.flaw == NO_MCAP:
-        yield f"  set aside as {file.original.name}"
+        yield f"  renamed to {file.original.name}"
         return
     for damage in file.damage[:_MOST_DAMAGE]:
         yield f"  {damage}"
     if len(file.damage) > _MOST_DAMAGE:
         yield f"  and {len(file.damage) - _MOST_DAMAGE} more places"
     if file.unread:
-        yield f"  its last {file.unread} bytes were no whole record; what could be read of them is kept"
+        yield f"  its last {file.unread} bytes were not a whole record; what could be read of them is kept"
     if file.lost is None:
-        lost = "it had no index that would tell how many there were"
+        lost = "it had no index, so the number of lost messages is unknown"
     else:
         lost = f"{file.lost} that its index counted are lost"
     yield f"  {file.messages} messages kept, index restored; {lost}"
-    yield f"  the file as it was: {file.original.name}"
+    yield f"  original file: {file.original.name}"

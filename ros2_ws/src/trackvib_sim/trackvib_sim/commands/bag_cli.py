@@ -11,7 +11,7 @@ from .option_types import largest_chunk_option
 
 @click.group()
 def bag():
-    """Look into recorded bags, and complete those that were cut short."""
+    """Inspect recorded bags, and repair those that were cut short."""
 
 
 @contextmanager
@@ -31,7 +31,7 @@ def _ends_in_one_line():
 @largest_chunk_option
 @click.argument("bag", type=click.Path())
 def info(bag):
-    """Show what is in a bag: topics, messages, times, and what made it."""
+    """Show the contents of a bag: topics, messages, times and provenance."""
     with _ends_in_one_line():
         from .bag import run_info  # imported late, as above
 
@@ -42,10 +42,10 @@ def info(bag):
 @largest_chunk_option
 @click.argument("bag", type=click.Path(file_okay=False))
 def repair(bag):
-    """Complete a bag whose recorder was killed or whose disk was full.
+    """Repair a bag whose recorder was killed or whose disk was full.
 
-    Index, statistics and metadata.yaml are restored, and no whole message is lost. The file as it was is kept beside,
-    its name ending in .damaged. A sound bag is left alone.
+    Index, statistics and metadata.yaml are restored, and no whole message is lost. The original file is kept beside it,
+    its name ending in .damaged. An intact bag is not changed.
     """
     with _ends_in_one_line():
         from .bag import run_repair  # imported late, as above

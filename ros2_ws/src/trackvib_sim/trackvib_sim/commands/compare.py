@@ -49,7 +49,7 @@ def run_compare(measured, simulated, align, speed_band, interval, settle, out, t
     for note in comparison.notes:
         console.print(note, soft_wrap=True)
     _print(comparison, console)
-    console.print(f"left in {folder}: {', '.join(sorted(each.name for each in folder.iterdir()))}", soft_wrap=True)
+    console.print(f"written to {folder}: {', '.join(sorted(each.name for each in folder.iterdir()))}", soft_wrap=True)
 
 
 def _print(comparison, console):

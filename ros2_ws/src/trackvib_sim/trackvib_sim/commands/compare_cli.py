@@ -21,8 +21,8 @@ _ALIGNMENTS = ("auto", "speed", "distance", "none")
     type=click.Choice(_ALIGNMENTS),
     default="auto",
     show_default=True,
-    help="Compare what was driven at the same speed, or at the same distance along the way; auto: by speed where both "
-    "tell it (odometry or satellite fixes), else statistics of all that counts.",
+    help="Compare what was driven at the same speed, or at the same distance along the way; auto: by speed where "
+    "both contain it (odometry or satellite fixes), else statistics of all that counts.",
 )
 @interval_option
 @speed_band_option
@@ -37,14 +37,14 @@ _ALIGNMENTS = ("auto", "speed", "distance", "none")
     "--out",
     type=click.Path(file_okay=False),
     default=None,
-    help="Folder to make for the results.  [default: comparisons/<time>]",
+    help="Folder to create for the results.  [default: comparisons/<time>]",
 )
 def compare(measured, simulated, align, speed_band, interval, settle, out, time, unit, sources):
-    """Set a MEASURED recording beside a SIMULATED one.
+    """Compare a MEASURED recording with a SIMULATED one.
 
     Ratios of RMS, weighted and third-octave levels, of transmissibility and of lines of known cause, with their
-    confidence intervals: a table, comparison.csv and .json, and an HTML report. The options of sensors, clock and unit
-    are about the measured recording, a bag or a CSV file.
+    confidence intervals: a table, comparison.csv and .json, and an HTML report. The options for sensors, clock and unit
+    apply to the measured recording, a bag or a CSV file.
     """
     from ..bags.errors import BagError  # imported late: --help need not wait for it
     from .compare import run_compare

@@ -18,7 +18,7 @@ from .endings import fail
 def fmu(out, **given):
     """Write a vehicle on its road as an FMU (FMI 2.0, co-simulation) for other simulators.
 
-    Coil currents go in; what sensors and mounts tell comes out. It runs in processes of this Python on this machine.
+    Inputs are the coil currents; outputs are sensor and mount signals. It runs with this Python on this machine only.
     """
     from .fmu import run_fmu  # imported late: --help need not wait for it
     from .result_folder import CommandError

@@ -2,6 +2,7 @@
 
 import threading
 from contextlib import contextmanager
+from itertools import chain
 
 from ..console import Terminal
 from .result_folder import CommandError
@@ -24,11 +25,13 @@ def _live_view(choices, vehicle, console):
     over, title = threading.Event(), choices.title
     pieces = live_pieces(vehicle, title, choices.namespace, over.is_set)
     with Served(0, title, console) as served:
-        thread = threading.Thread(target=served.show, args=(pieces,), daemon=True)
+        first = next(pieces)  # it listens before the nodes start, so the run is shown from its first sample on
+        thread = threading.Thread(target=served.show, args=(chain([first], pieces),), daemon=True)
         thread.start()
         try:
             yield
+            over.set()
+            served.wait()
         finally:
             over.set()
             thread.join()
-        served.wait()

@@ -41,7 +41,7 @@ def run_bench(name_or_file, mount, amplitudes, frequencies, currents, out):
         raise ValueError(f"vehicle {vehicle.name} has no mounts")
     mount = names[0] if mount is None else mount
     if mount not in names:
-        raise ValueError(f"--mount {plain_line(mount)!r} is none of {', '.join(names)}")
+        raise ValueError(f"--mount {plain_line(mount)!r} is not one of {', '.join(names)}")
     mounts, index = build_system(vehicle, Operation(0.0, 0.0, False), 1e-4).mounts, names.index(mount)
     if index < mounts.coils:
         low, high = usable_current(vehicle)
@@ -51,7 +51,7 @@ def run_bench(name_or_file, mount, amplitudes, frequencies, currents, out):
                 raise ValueError(f"--currents has {current:g} A, accepted are {low:g} to {high:g} A")
     else:
         if currents is not None:
-            raise ValueError(f"mount {mount} is of rubber and has no current, leave out --currents")
+            raise ValueError(f"mount {mount} is a rubber mount without a coil, omit --currents")
         currents = (0.0,)
     cases = product(currents, frequencies, amplitudes)
     loops = [shake(mounts, index, current, MILLI * amplitude, frequency) for current, frequency, amplitude in cases]
@@ -60,7 +60,7 @@ def run_bench(name_or_file, mount, amplitudes, frequencies, currents, out):
         loops_picture(loops, f"{vehicle.name}, mount {mount}: force along its own z axis", folder / "loops.png")
     console = Terminal()
     console.print(_loops_table(loops, f"mount {mount} of {vehicle.name}"))
-    console.print(f"left in {out}: loops.csv, loops.png", soft_wrap=True)
+    console.print(f"written to {out}: loops.csv, loops.png", soft_wrap=True)
 
 
 def run_fit(file, law, carried_mass, out):
@@ -77,16 +77,16 @@ def run_fit(file, law, carried_mass, out):
     fit = fit_loops(loops, law)
     items = mount_type(fit, carried_mass)
     with all_or_nothing(out) as folder:
-        fit_picture(loops, fit.force, f"{law}: {fit.residual:.1%} of the force is left over", folder / "fit.png")
+        fit_picture(loops, fit.force, f"{law}: {fit.residual:.1%} of the force remains unexplained", folder / "fit.png")
         (folder / "mount_type.yaml").write_text("\n".join(items) + "\n", encoding="utf-8")
     console = Terminal()
     console.print(_fit_table(fit))
     console.print(
-        f"constant force {fit.offset.value:.1f} ± {fit.offset.half:.1f} N; left over {fit.residual:.2%} of RMS"
+        f"constant force {fit.offset.value:.1f} ± {fit.offset.half:.1f} N; residual {fit.residual:.2%} of RMS"
     )
     for line in items:
         console.print(line, soft_wrap=True)
-    console.print(f"left in {out}: fit.png, mount_type.yaml", soft_wrap=True)
+    console.print(f"written to {out}: fit.png, mount_type.yaml", soft_wrap=True)
 
 
 def _write_loops(loops, path):
@@ -101,7 +101,7 @@ def _write_loops(loops, path):
 
 def _loops_table(loops, title):
     table = Table(title=title, title_justify="left")
-    for head in ("A", "Hz", "mm", "stiffness kN/mm", "loss kN/mm", "damping kN s/m", "heat J a cycle", "largest kN"):
+    for head in ("A", "Hz", "mm", "stiffness kN/mm", "loss kN/mm", "damping kN s/m", "heat J per cycle", "largest kN"):
         table.add_column(head, justify="right")
     for loop in loops:
         n = loop_numbers(loop)

@@ -15,7 +15,11 @@ def _numbers(name, default, low, high, words):
 
 
 _OUT = click.option(
-    "--out", type=click.Path(file_okay=False), default="mount", show_default=True, help="Folder to make for the result."
+    "--out",
+    type=click.Path(file_okay=False),
+    default="mount",
+    show_default=True,
+    help="Folder to create for the results.",
 )
 
 
@@ -24,15 +28,15 @@ _OUT = click.option(
 @click.option("--mount", default=None, help="Name of the mount.  [default: the vehicle's first]")
 @_numbers("--amplitudes", "0.2,1,3", 1e-3, 50.0, "Amplitudes in mm.")
 @_numbers("--frequencies", "1,8.7,30", 1e-3, 500.0, "Frequencies in Hz.")
-@_numbers("--currents", None, 0.0, 20.0, "Constant currents in A.  [default: 0,1,2,4 of a mount with a coil]")
+@_numbers("--currents", None, 0.0, 20.0, "Constant currents in A.  [default: 0,1,2,4 for a mount with a coil]")
 @_OUT
 @click.pass_context
 def mount(context, **choices):
-    """Shake a mount on a test bench; leaves its loops as picture and CSV."""
+    """Excite a mount on a simulated test bench; writes its force-displacement loops as picture and CSV."""
     if context.invoked_subcommand is not None:
         given = [name for name in choices if context.get_parameter_source(name) is ParameterSource.COMMANDLINE]
         if given:
-            raise click.UsageError(f"--{given[0]} is of no use before '{context.invoked_subcommand}'")
+            raise click.UsageError(f"--{given[0]} cannot be combined with '{context.invoked_subcommand}'")
         return
     from .mount import run_bench  # imported late: --help need not wait for it
     from .result_folder import CommandError
@@ -50,7 +54,7 @@ def mount(context, **choices):
     type=click.Choice(LAWS),
     default="yielding",
     show_default=True,
-    help="Without or with a yield force.",
+    help="Law to fit: without or with a yield force.",
 )
 @click.option(
     "--carried-mass",

@@ -41,8 +41,8 @@ def largest_chunk_option(command):
         metavar="MIB",
         expose_value=False,
         callback=lambda _context, _parameter, value: largest_chunk.set(value),
-        help="Memory in MiB that a chunk of a bag may take when it is unfolded, and any other record; a bag that needs "
-        "more is refused.",
+        help="Largest size in MiB of a decompressed chunk, or of any other record, of a bag; a bag with a larger one "
+        "is refused.",
     )(command)
 
 
@@ -50,7 +50,7 @@ vehicle_option = click.option(
     "--vehicle",
     default=None,
     metavar="NAME|FILE",
-    help=f"Vehicle that comes with the package, or a vehicle file.  [default: {DEFAULT_VEHICLE}]",
+    help=f"Name of an included vehicle, or a vehicle file.  [default: {DEFAULT_VEHICLE}]",
 )
 
 

@@ -19,7 +19,7 @@ def own_domain(namespace="/"):
     if not (domain.isdecimal() and int(domain) <= HIGHEST_DOMAIN):
         raise CommandError(f"ROS_DOMAIN_ID is {domain!r}, accepted is a whole number from 0 to {HIGHEST_DOMAIN}")
     where = f"in ROS domain {domain}" + ("" if namespace == "/" else f" and namespace {namespace}")
-    taken = CommandError(f"a simulator runs {where} already; set another ROS_DOMAIN_ID or --namespace")
+    taken = CommandError(f"a simulator is already running {where}; set another ROS_DOMAIN_ID or --namespace")
     # a name that the kernel frees with the process, however that ends; it takes no long ones
     claimed = sha256(namespace.encode()).hexdigest()[:16]
     with socket.socket(socket.AF_UNIX) as claim:

@@ -11,7 +11,7 @@ interval_option = click.option(
     default=INTERVAL,
     metavar="M",
     show_default=True,
-    help="Length of the intervals of way by which numbers are given, in m.",
+    help="Length in m of the distance intervals for which numbers are given.",
 )
 speed_band_option = click.option(
     "--speed-band",
@@ -19,5 +19,5 @@ speed_band_option = click.option(
     default=SPEED_BAND,
     metavar="V",
     show_default=True,
-    help="Width of the bands of speed by which numbers are given, in m/s.",
+    help="Width in m/s of the speed bands for which numbers are given.",
 )

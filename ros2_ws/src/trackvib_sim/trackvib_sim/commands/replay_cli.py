@@ -23,30 +23,30 @@ def _law_or_external(context, parameter, value):
 @click.option(
     "--verify",
     is_flag=True,
-    help="Drive the simulator on the recorded road and currents; its sensors must come out bit-identical. "
+    help="Run the simulator on the recorded road and currents; its sensor samples must be bit-identical. "
     "Exit code 0: they do, 1: they do not, 2: the bag does not tell enough.",
 )
-@law_option("--law", default=None, metavar="LAW", help="Drive again on the recorded road under another control law")
+@law_option("--law", default=None, metavar="LAW", help="Repeat the run on the recorded road with another control law")
 @click.option(
     "--controller",
     default=None,
     callback=_law_or_external,
     metavar="LAW",
-    help=f"Give the recorded accelerations to a controller node with this law, or with '{EXTERNAL}' to the "
+    help=f"Send the recorded accelerations to a controller node with this law, or with '{EXTERNAL}' to the "
     "one that you run, and compare its currents with the recorded ones.",
 )
 @click.option(
     "--out",
     type=click.Path(file_okay=False),
     default=None,
-    help="Folder to make for --law and --controller.  [default: runs/<time>_replay_<law>]",
+    help="Folder to create with --law or --controller.  [default: runs/<time>_replay_<law>]",
 )
 def replay(bag, verify, law, controller, out):
     """Replay a bag into the simulator (--verify, --law) or into a controller (--controller)."""
     if sum((verify, law is not None, controller is not None)) != 1:
         raise click.UsageError("exactly one of --verify, --law and --controller is needed")
     if verify and out is not None:
-        raise click.UsageError("--verify leaves nothing, so --out does not go with it")
+        raise click.UsageError("--verify writes no files, so it cannot be combined with --out")
     from mr_mount_controller.laws import LawError  # imported late: --help need not wait for it
 
     from ..bags.errors import BagError

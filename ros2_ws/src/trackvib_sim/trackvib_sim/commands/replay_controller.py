@@ -45,8 +45,8 @@ def run_replay_controller(bag, law, stock, out, console):
     """
     recording = read_recording(bag)
     if REPLAYED in recording.counts:
-        made_of = recording.provenance.get("replay", {}).get("bag", "the bag it was made of")
-        raise BagError(f"bag {str(bag)!r} is the result of such a replay; give {made_of} instead")
+        made_of = recording.provenance.get("replay", {}).get("bag", "the bag it was made from")
+        raise BagError(f"bag {str(bag)!r} is the result of a replay into a controller; give {made_of} instead")
     summary = {"bag": str(bag), "controller": law or "external", "samples": len(recording.chassis.stamp)}
     title = f"{called(bag)} into {law or 'a controller'}"
     with own_domain(), all_or_nothing(out) as folder:
@@ -59,7 +59,7 @@ def run_replay_controller(bag, law, stock, out, console):
     if interrupt is not None:
         raise interrupt
     console.print(_words(summary), soft_wrap=True)
-    console.print(f"left in {folder}: {', '.join(sorted(path.name for path in folder.iterdir()))}", soft_wrap=True)
+    console.print(f"written to {folder}: {', '.join(sorted(path.name for path in folder.iterdir()))}", soft_wrap=True)
 
 
 def _replay_into_bag(recording, stock, law, folder, console):
@@ -93,7 +93,8 @@ def _replay(recording, stock, law, writer, replayed, folder, console):
         check, last_words = stack.enter_context(_controller(stock, law, values, _rate(samples.stamp), folder))
         trial = stack.enter_context(ControllerTrial(recording.mounting))
         if law is None:
-            console.print(f"waiting for a controller that listens to {CHASSIS_IMU} or {POWERTRAIN_IMU} and answers on "
+            console.print(f"waiting for a controller that subscribes to {CHASSIS_IMU} or {POWERTRAIN_IMU} and "
+            "answers on "
                           f"{COIL_CURRENT}", soft_wrap=True)  # fmt: skip
         trial.wait_for_controller(check)
         writer.add_topic(REPLAYED, COIL_CURRENT_TYPE, [qos_record(LOOP_WRITER_QOS)], trial.type_hash())
@@ -161,10 +162,10 @@ def _controller(stock, law, values, rate, folder):
 
     def check():
         if stock.ended():
-            raise CommandError(f"'controller' ended; it said:\n{stock.last_words('controller')}")
+            raise CommandError(f"'controller' ended; its last output:\n{stock.last_words('controller')}")
 
     try:
-        yield check, lambda: f"; it said:\n{stock.last_words('controller')}"
+        yield check, lambda: f"; its last output:\n{stock.last_words('controller')}"
     finally:
         stock.stop()
 

@@ -51,13 +51,13 @@ def run_replay_law(bag, law, out, console):
         summary["mounts_J"] = mount_energy_account(simulation.state.mount_energy)._asdict()
         (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
     console.print(_table(summary, labels))
-    console.print(f"{ended}; left in {folder}: bag/, summary.json, replay.png", soft_wrap=True)
+    console.print(f"{ended}; written to {folder}: bag/, summary.json, replay.png", soft_wrap=True)
 
 
 def _compare(recording, rerun, law, ended, folder):
     """Draw both drives over the same instants; returns what they are called, and their levels."""
     begin, last = start_of(recording), int(rerun.chassis.stamp[-1])
-    recorded_law = parameters_with(recording.provenance, "law")[1].get("law", "law not told")
+    recorded_law = parameters_with(recording.provenance, "law")[1].get("law", "law not recorded")
     labels = (f"recorded ({shortened(readable(recorded_law))})", f"replayed ({law})")
     both = _between(recording, begin, last, rerun), _between(rerun, begin, last, recording)
     drives = dict(zip(labels, both, strict=True))
@@ -80,7 +80,7 @@ def _drive(recording, simulation, chosen_and_changes, law, path, console):
     chosen, changes = chosen_and_changes
     periods = int(recording.chassis.stamp[-1]) // simulation.settings.rates.period
     writer = BagWriter(path)
-    ended, lockstep = "driven to the recorded end", None
+    ended, lockstep = "ran to the end of the recording", None
     try:
         constant = (
             topics.ROAD_PROFILE,

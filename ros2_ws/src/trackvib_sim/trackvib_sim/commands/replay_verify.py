@@ -55,7 +55,9 @@ def verify(bag, console):
     recording.require("mounts", "road", "vehicle")
     simulation, values = prepare_again(recording)
     if values["pace"] != "lockstep":
-        raise NotVerifiable("its run followed the wall clock (pace is 'realtime'), so it depends on the machine")
+        raise NotVerifiable(
+            "its run followed the wall clock (pace is 'realtime'), so its results depend on the machine"
+        )
     _require_same_mounts(recording.mounting, simulation.mounting)
     mounts = _Stream(recording, topics.MOUNT_STATE, simulation.mounting.names)
     names = [sensor.name for sensor in simulation.sensors]
@@ -68,7 +70,7 @@ def verify(bag, console):
     for stream in streams:
         odd = stream.stamp[(stream.stamp % rates.period != 0) | (stream.stamp <= 0)]
         if odd.size:
-            raise NotVerifiable(f"{stream.topic} has the stamp {odd[0]} ns, at which no period ends")
+            raise NotVerifiable(f"{stream.topic} has the stamp {odd[0]} ns, which is not the end of a period")
     currents = currents_in_force(simulation, recording, values["on_silence"])
     other = _other_versions(recording.provenance)
     for _ in followed(range(last // rates.period), "driving again", console):
@@ -83,7 +85,7 @@ def verify(bag, console):
         try:
             simulation.advance(demanded)
         except RunFailed as failure:
-            return False, f"different: replayed, {failure}; the recorded run goes on{other}"
+            return False, f"different: replayed, {failure}; the recorded run continues{other}"
         time, sample = simulation.time, simulation.sample
         difference = mounts.difference(time, sample.mounts)
         for name, reading in readings.take().items():
@@ -94,7 +96,7 @@ def verify(bag, console):
     if not all(stream.compared for stream in streams):
         raise NotVerifiable(f"its samples begin after t = {simulation.time / NANO:.3f} s, where its answers end")
     count = ", ".join(f"{stream.compared} of {stream.topic}" for stream in streams)
-    cut = "" if recording.complete else "; the bag is cut short, this is what it holds"
+    cut = "" if recording.complete else "; the bag was cut short and holds no more"
     return True, f"identical to the last bit: {count}, up to t = {simulation.time / NANO:.3f} s{cut}{other}"
 
 

@@ -17,9 +17,9 @@ def make_folder(path):
     try:
         folder.mkdir(parents=True)
     except FileExistsError:
-        raise CommandError(f"{str(folder)!r} exists already; nothing is overwritten, choose another --out") from None
+        raise CommandError(f"{str(folder)!r} already exists; nothing is overwritten, choose another --out") from None
     except OSError as error:
-        raise CommandError(f"{str(folder)!r} cannot be made: {error.strerror}") from None
+        raise CommandError(f"{str(folder)!r} cannot be created: {error.strerror}") from None
     return folder
 
 

@@ -40,7 +40,7 @@ def run_road(text, seed, length, begin, tread, csv, crg, out):
     distance = road.spacing * np.arange(first, first + count)
     paths = [Path(path) for path in (out, csv, crg) if path is not None]
     if len({path.resolve() for path in (*paths, Path(text))}) <= len(paths):
-        raise ValueError("the road, --out, --csv and --crg name a file twice, accepted are different ones")
+        raise ValueError("the road, --out, --csv and --crg name the same file twice, must be different files")
     with ExitStack() as drafts:
         written = {path: drafts.enter_context(whole_or_none(path))[0] for path in paths}
         road_picture(distance, heights, f"{road_in_words(text)}, {length:g} m", written[Path(out)])
@@ -52,7 +52,7 @@ def run_road(text, seed, length, begin, tread, csv, crg, out):
     console.print(_table(heights, road, f"{road_in_words(text)}, {distance[0]:g} to {distance[-1]:g} m"))
     ground = getattr(road, "ground", road)  # under obstacles
     taken = "interpolated linearly, " if isinstance(ground, ProfileRoad) and not ground.even else ""
-    bridged = "; what is shorter than a link, shoes bridge" if road.spacing < SHORTEST else ""
+    bridged = "; shoes bridge what is shorter than a link" if road.spacing < SHORTEST else ""
     console.print(f"samples are {taken}{road.spacing:g} m apart{bridged}", soft_wrap=True)
     console.print(f"left: {', '.join(map(str, paths))}", soft_wrap=True)
 

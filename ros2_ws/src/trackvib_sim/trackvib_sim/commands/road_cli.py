@@ -10,30 +10,37 @@ from .option_types import FiniteRange
 @click.argument("road")
 @click.option("--seed", type=click.IntRange(0, 10**9), default=1, show_default=True, help="Seed of a class.")
 @click.option(
-    "--length", type=FiniteRange(10.0, 1e5), default=500.0, show_default=True, help="Length in m that is looked at."
+    "--length", type=FiniteRange(10.0, 1e5), default=500.0, show_default=True, help="Length in m to evaluate."
 )
 @click.option(
     "--begin",
     type=FiniteRange(-1e6, 1e6),
     default=None,
-    help="Where it begins, in m.  [default: where the road does]",
+    help="Start of the evaluated part in m.  [default: start of the road]",
 )
 @click.option(
     "--tread", type=FiniteRange(0.1, 10.0), default=2.8, show_default=True, help="Distance between the tracks in m."
 )
 @click.option(
-    "--csv", type=click.Path(dir_okay=False), default=None, help="Write the heights that are looked at to this file."
+    "--csv", type=click.Path(dir_okay=False), default=None, help="Write the evaluated heights to this CSV file."
 )
 @click.option(
-    "--crg", type=click.Path(dir_okay=False), default=None, help="Write them as an OpenCRG file of two sections."
+    "--crg",
+    type=click.Path(dir_okay=False),
+    default=None,
+    help="Write the evaluated heights to this OpenCRG file with two long sections.",
 )
 @click.option(
-    "--out", type=click.Path(dir_okay=False), default="road.png", show_default=True, help="Picture of profile and PSD."
+    "--out",
+    type=click.Path(dir_okay=False),
+    default="road.png",
+    show_default=True,
+    help="Picture of the profile and its PSD.",
 )
 def road(road, **choices):
-    """Tell what a road is like: class, waviness, roughness index, level; draw it with its spectrum.
+    """Describe a road: class, waviness, roughness index, level; draw it with its spectrum.
 
-    ROAD is a class by ISO 8608, A to H, or a file: a profile (CSV), OpenCRG, a road file (YAML), or a bag.
+    ROAD is an ISO 8608 class, A to H, or a file: profile (CSV), OpenCRG, road file (YAML), or a bag.
     """
     from .result_folder import CommandError
     from .road import run_road  # imported late: --help need not wait for it

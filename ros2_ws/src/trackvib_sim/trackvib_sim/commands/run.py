@@ -45,6 +45,8 @@ def run_loop(choosing, out, viewing=lambda _choices, _vehicle: nullcontext()):
                 (folder / "log").mkdir()
             parameters.give(RECORDER, bag=str(folder / "bag"))
             console.print(f"closed loop: {choices.title}")
+            for note in parameters.notes:
+                console.print(f"warning: {note}", soft_wrap=True)
             if choices.physics_rate < (least := recommended_rate(vehicle)):
                 console.print(f"warning: --physics-rate {choices.physics_rate} is below the recommended {least} Hz")
             interrupt = _run_nodes(processes, choices, parameters, folder, console)
@@ -60,7 +62,7 @@ def _measure(choices, settling, folder, console, interrupt):
     except (BagError, ValueError) as error:
         raise interrupt or CommandError(str(error)) from None
     if lacking:
-        raise CommandError(f"the bag in {str(folder)!r} is not complete, it lacks {', '.join(lacking)}") from interrupt
+        raise CommandError(f"the bag in {str(folder)!r} is not complete: {', '.join(lacking)} missing") from interrupt
     if interrupt is not None:
         raise interrupt
 
@@ -78,7 +80,7 @@ def _run_nodes(processes, choices, parameters, folder, console):
     if interrupted is None and any(codes.values()):
         name = next(name for name in (*first, *codes) if codes[name])
         said = processes.last_words(name)
-        raise CommandError(_ending(name, codes[name], folder) + (f"; it said:\n{said}" if said else ""))
+        raise CommandError(_ending(name, codes[name], folder) + (f"; its last output:\n{said}" if said else ""))
     return interrupted
 
 
@@ -86,7 +88,7 @@ def _ending(name, code, folder):
     """Return in words how a process ended."""
     if code > 0:
         return f"'{name}' ended with exit code {code}"
-    words = f"'{name}' was ended by {signal.Signals(-code).name}"
+    words = f"'{name}' was terminated by {signal.Signals(-code).name}"
     if name == "recorder":
         words += f"; `trackvib bag repair {folder / 'bag'}` completes what it had recorded"
     return words

@@ -19,21 +19,23 @@ from .option_types import FiniteRange, law_option
     "files",
     type=click.Path(exists=True, dir_okay=False),
     multiple=True,
-    help="Parameter file of ROS 2 for any of the nodes, where no option is given; of several the last counts.",
+    help="ROS 2 parameter file for any of the nodes; may be repeated, the last one wins. Options take precedence.",
 )
-@click.option("--namespace", default="/", show_default=True, help="Namespace of the whole vehicle, its clock included.")
 @click.option(
-    "--one-process", is_flag=True, help="Simulator, road and controller in one process: the same results, sooner."
+    "--namespace", default="/", show_default=True, help="Namespace of the whole vehicle, including its clock."
 )
-@click.option("--view", is_flag=True, help="Show the run in a browser on this machine while it goes on.")
+@click.option(
+    "--one-process", is_flag=True, help="Run simulator, road and controller in one process: same results, faster."
+)
+@click.option("--view", is_flag=True, help="Show the run live in a browser on this machine.")
 @click.option(
     "--out",
     type=click.Path(file_okay=False),
     default=None,
-    help="Folder to make for the run.  [default: runs/<time>_<road>_<speed>]",
+    help="Folder to create for the run.  [default: runs/<time>_<road>_<speed>]",
 )
 def run(out, files, namespace, one_process, view, **options):
-    """Run the closed loop as four ROS 2 nodes; leaves a bag, a summary and a picture."""
+    """Run the closed loop as four ROS 2 nodes; writes a bag, a summary and a picture."""
     from .result_folder import CommandError
     from .run import run_loop  # imported late: --help need not wait for it
 

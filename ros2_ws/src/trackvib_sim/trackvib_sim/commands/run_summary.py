@@ -49,14 +49,14 @@ def _print_summary(console, summary, folder):
     for line in (
         *_drive(summary["drive_N"], summary["drive_W"]),
         f"mounts: {mounts.work:.1f} J of work = {mounts.dissipated:.1f} dissipated {mounts.stored:+.1f} stored "
-        f"{mounts.exchanged:+.1f} lost to the field by switching; left over {100.0 * mounts.error:.3f} %",
+        f"{mounts.exchanged:+.1f} lost to the field by switching; residual {100.0 * mounts.error:.3f} %",
         f"loop: {loop['samples']} samples; lost {loop['lost_chassis']} chassis, {loop['lost_powertrain']} powertrain; "
         f"unanswered {unanswered}; late {loop['late']}; rejected "
         f"{int(loop['early']) + int(loop['duplicate']) + int(loop['not_finite'])}; saturated {loop['saturated']}",
         f"pace: {float(loop['real_time_factor']):.2f} x real time; of each period physics "
         f"{loop['physics_us_per_period']} us, publishing {loop['publishing_us_per_period']} us, waiting for the answer "
         f"{loop['answer_us_per_period']} us, for road or recorder {loop['holding_us_per_period']} us",
-        f"left in {folder}: bag/, summary.json, summary.txt, run.png, log/",
+        f"written to {folder}: bag/, summary.json, summary.txt, run.png, log/",
     ):
         console.print(line, soft_wrap=True)
 

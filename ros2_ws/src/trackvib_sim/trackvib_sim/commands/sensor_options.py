@@ -11,35 +11,37 @@ import click
 from ..bags.sources import BY_MEAN, GRAVITIES, SourceError, Sources
 
 _OPTIONS = (
-    click.option("--chassis", metavar="TOPIC", help="Topic, or CSV file, of the chassis.  [default: chassis/imu]"),
-    click.option("--powertrain", metavar="TOPIC", help="Likewise of the powertrain.  [default: powertrain/imu]"),
+    click.option("--chassis", metavar="TOPIC", help="Topic or CSV file of the chassis sensor.  [default: chassis/imu]"),
+    click.option(
+        "--powertrain", metavar="TOPIC", help="Topic or CSV file of the powertrain sensor.  [default: powertrain/imu]"
+    ),
     click.option(
         "--sensor",
         "further",
         metavar="NAME=TOPIC",
         multiple=True,
-        help="A further sensor; may be given several times. Topics are of Imu, AccelStamped or Vector3Stamped.",
+        help="Another sensor; may be repeated. Topics are of type Imu, AccelStamped or Vector3Stamped.",
     ),
     click.option(
         "--rotate",
         metavar="[NAME=]R,P,Y",
         multiple=True,
-        help="Roll, pitch and yaw in degrees of a sensor in the vehicle (x forward, y left, z up), or of all that are "
-        "not named.  [default: by the bag's /tf_static]",
+        help="Roll, pitch and yaw in degrees of a sensor relative to the vehicle (x forward, y left, z up), or of "
+        "all sensors that are not named.  [default: from the bag's /tf_static]",
     ),
     click.option(
         "--gravity",
         type=click.Choice(GRAVITIES),
         default=BY_MEAN,
         show_default=True,
-        help="Remove gravity as the mean, or by the orientation that an Imu tells.",
+        help="Remove gravity as the mean, or by the orientation in the Imu messages.",
     ),
     click.option(
         "--csv",
         "csv_columns",
         metavar="COLUMN=NAME,...",
         default="",
-        help="What a CSV file calls its columns, with their units: time_s=t,x_g=ax,y_g=ay,z_g=az.  "
+        help="Column names of a CSV file, with their units: time_s=t,x_g=ax,y_g=ay,z_g=az.  "
         "[default: time_s,x_m/s2,...]",
     ),
     click.option(
@@ -47,7 +49,7 @@ _OPTIONS = (
         type=click.Choice(("header", "log")),
         default="header",
         show_default=True,
-        help="Which times are the time base: those in the messages' headers, or those at which messages were recorded.",
+        help="Time base: the stamps in the message headers, or the times at which the messages were recorded.",
     ),
     click.option(
         "--unit",
@@ -80,18 +82,20 @@ def _sources(chassis, powertrain, further, rotate, gravity, csv_columns):
     for word in further:
         name, equals, topic = word.partition("=")
         if not (equals and topic and name.isidentifier()):
-            raise SourceError(f"--sensor is {word!r}, accepted is NAME=TOPIC, the name of letters, digits and _")
+            raise SourceError(
+                f"--sensor is {word!r}, accepted is NAME=TOPIC, where NAME consists of letters, digits and _"
+            )
         if name in named:
-            raise SourceError(f"--sensor: {name!r} is told twice, must be once")
+            raise SourceError(f"--sensor: {name!r} is given twice, must be given once")
         named[name] = topic
     rotations = dict(map(_rotation, rotate))
     if len(rotations) < len(rotate):
-        raise SourceError("--rotate is told twice of the same sensor, must be once")
+        raise SourceError("--rotate is given twice for the same sensor, must be given once")
     columns = {}
     for word in filter(None, csv_columns.split(",")):
         column, equals, name = word.partition("=")
         if not (equals and column.strip() and name.strip()):
-            raise SourceError(f"--csv has {word!r}, accepted is COLUMN_UNIT=NAME, with commas between, like time_s=t")
+            raise SourceError(f"--csv has {word!r}, accepted is COLUMN_UNIT=NAME, separated by commas, like time_s=t")
         columns[column.strip().lower()] = name.strip()
     return Sources(named, rotations, gravity, columns)
 

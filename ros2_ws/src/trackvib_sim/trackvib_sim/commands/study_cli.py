@@ -15,7 +15,7 @@ SCENARIOS = ("e10", "c20", "run_up", "bump")  # those of studies.controllers, wh
 
 @click.group()
 def study():
-    """Many runs of the whole vehicle, set beside published results or each other."""
+    """Many runs of the whole vehicle, compared with published results or with each other."""
 
 
 @contextmanager
@@ -28,7 +28,7 @@ def _ends_in_one_line(out):
     except (WorkersError, ValueError, OSError) as error:
         fail(error)
     except KeyboardInterrupt:
-        say(f"interrupted; finished runs are kept in {out}, the same command goes on from there")
+        say(f"interrupted; finished runs are kept in {out}, the same command continues from there")
         sys.exit(INTERRUPTED)
 
 
@@ -36,11 +36,11 @@ _SCHEDULER = click.option(
     "--scheduler",
     default=None,
     metavar="ADDRESS",
-    help="Dask scheduler whose workers do the runs.  [default: all cores of this machine]",
+    help="Dask scheduler whose workers execute the runs.  [default: all cores of this machine]",
 )
 
 
-def _out(default, words="Folder of the study; finished runs in it are not done again."):
+def _out(default, words="Folder of the study; finished runs in it are reused."):
     """The option for the folder that a study leaves."""
     return click.option("--out", type=click.Path(file_okay=False), default=default, show_default=True, help=words)
 
@@ -59,7 +59,7 @@ def _speeds(default):
     default=",".join(CLASSES),
     show_default=True,
     metavar="A,B,...",
-    help="Classes of the road by ISO 8608.",
+    help="ISO 8608 road classes.",
 )
 @_speeds("5,10,20")
 @click.option(
@@ -73,7 +73,7 @@ def _speeds(default):
 @_SCHEDULER
 @_out("table1")
 def table1(classes, speeds, seeds, vehicle, scheduler, out):
-    """RMS accelerations over classes and speeds, beside the paper's Table 1."""
+    """Compare RMS accelerations over road classes and speeds with the paper's Table 1."""
     with _ends_in_one_line(out):
         from ..studies.paper.table1 import run_table1  # imported late, as above
 
@@ -83,9 +83,9 @@ def table1(classes, speeds, seeds, vehicle, scheduler, out):
 @study.command()
 @vehicle_option
 @_SCHEDULER
-@_out("figures", "Folder of the figures; finished runs in it are not done again.")
+@_out("figures", "Folder of the figures; finished runs in it are reused.")
 def figures(vehicle, scheduler, out):
-    """The paper's other figures as pictures, and a second solver beside ours."""
+    """Reproduce the paper's other figures, and compare with a second solver."""
     with _ends_in_one_line(out):
         from ..studies.paper.figures import run_figures  # imported late, as above
 
@@ -98,7 +98,7 @@ def figures(vehicle, scheduler, out):
     type=Several(click.STRING),
     default=None,
     metavar="LAW,LAW,...",
-    help="Names of control laws, or package.module:Class.  [default: all that are installed]",
+    help="Names of control laws, or package.module:Class.  [default: all installed laws]",
 )
 @click.option(
     "--scenarios",
@@ -106,20 +106,20 @@ def figures(vehicle, scheduler, out):
     default=",".join(SCENARIOS),
     show_default=True,
     metavar="NAME,NAME,...",
-    help="What the vehicle does.",
+    help="Scenarios to run.",
 )
 @click.option(
     "--seeds",
     type=click.IntRange(1, 1000),
     default=8,
     show_default=True,
-    help="Runs per law and scenario that varies, each with its own road and track phase.",
+    help="Runs per law and random scenario, each with its own road and track phase.",
 )
 @vehicle_option
 @_SCHEDULER
 @_out("controllers")
 def controllers(laws, scenarios, seeds, vehicle, scheduler, out):
-    """Every control law on roads, in an engine run-up and over a bump, beside constant currents."""
+    """Compare every control law with constant currents: on roads, in an engine run-up and over a bump."""
     with _ends_in_one_line(out):
         from ..studies.controllers.study import run_controllers  # imported late, as above
 
@@ -131,26 +131,26 @@ def controllers(laws, scenarios, seeds, vehicle, scheduler, out):
     "--generations",
     type=click.IntRange(1, 100000),
     default=None,
-    help="Generations of the search in all, with those done earlier.  [default: the plan's]",
+    help="Total number of generations of the search, including those already done.  [default: the plan's]",
 )
 @click.option(
     "--plan",
     type=click.Path(dir_okay=False),
     default=None,
-    help="Which parameters, bounds and effort.  [default: the plan that comes with the package]",
+    help="Plan file: parameters, bounds and effort.  [default: the included plan]",
 )
 @click.option(
     "--without",
     type=Several(click.Choice(list(CLASSES))),
     default=(),
     metavar="A,B,...",
-    help="Road classes whose rows are left out, to be foretold by `study table1`.",
+    help="Road classes whose rows are left out, so that `study table1` can predict them.",
 )
 @vehicle_option
 @_SCHEDULER
-@_out("calibration", "Folder of the study; a search in it goes on.")
+@_out("calibration", "Folder of the study; an existing search in it is continued.")
 def calibrate(generations, plan, without, vehicle, scheduler, out):
-    """Fit uncertain parameters of the vehicle to the rows of the paper's Table 1 that are given."""
+    """Fit uncertain parameters of the vehicle to the published rows of the paper's Table 1."""
     with _ends_in_one_line(out):
         from ..studies.calibration.study import run_calibrate  # imported late, as above
 
@@ -163,12 +163,12 @@ def calibrate(generations, plan, without, vehicle, scheduler, out):
     type=click.IntRange(1, 100),
     default=4,
     show_default=True,
-    help="Runs per case, each with its own phase between the two tracks; variants have half of them.",
+    help="Runs per case, each with its own phase between the two tracks; variants use half of them.",
 )
 @_SCHEDULER
 @_out("m113")
 def m113(phases, scheduler, out):
-    """The M113 beside the same vehicle in an independent code, and what differences come from."""
+    """Compare the M113 with the same vehicle in an independent code, and find the causes of differences."""
     with _ends_in_one_line(out):
         from ..studies.m113.study import run_m113  # imported late, as above
 
@@ -181,7 +181,7 @@ def m113(phases, scheduler, out):
 @_SCHEDULER
 @_out("resistance")
 def resistance(speeds, vehicle, scheduler, out):
-    """Force and power to roll on level ground, and where the heat goes."""
+    """Running resistance: force and power on level ground, and where the power is dissipated."""
     with _ends_in_one_line(out):
         from ..studies.resistance.study import run_resistance  # imported late, as above
 

@@ -16,17 +16,17 @@ from .option_types import FiniteRange, vehicle_option
     type=FiniteRange(0.1, 1000.0),
     default=100.0,
     show_default=True,
-    help="Highest frequency of the table in Hz.",
+    help="Highest frequency in the table, in Hz.",
 )
 @click.option(
     "--out",
     type=click.Path(dir_okay=False),
     default="modes.png",
     show_default=True,
-    help="Picture of the lowest oscillations.",
+    help="Picture of the lowest modes.",
 )
 def modes(vehicle, current, highest, out):
-    """Print the standing vehicle's natural frequencies and damping, and draw its modes."""
+    """Print natural frequencies and damping of the stationary vehicle, and draw its modes."""
     from .modes import run_modes
     from .result_folder import CommandError  # imported late, as above
 
@@ -41,10 +41,10 @@ def modes(vehicle, current, highest, out):
 @click.option(
     "--out", type=click.Path(dir_okay=False), default="vehicle.png", show_default=True, help="Drawing of the vehicle."
 )
-@click.option("--list", "listing", is_flag=True, help="Only list the vehicles that come with the package.")
+@click.option("--list", "listing", is_flag=True, help="Only list the included vehicles.")
 @click.option("--schema", is_flag=True, help="Only print the JSON Schema of vehicle files, for editors.")
 def vehicle(vehicle, out, listing, schema):
-    """Print a vehicle's parameters with their sources and what follows from them, and draw it to scale."""
+    """Print a vehicle's parameters, their sources and derived quantities, and draw it to scale."""
     from .result_folder import CommandError  # imported late, as above
     from .vehicle import list_vehicles, print_schema, run_vehicle
 

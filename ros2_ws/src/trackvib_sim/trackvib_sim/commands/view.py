@@ -69,7 +69,7 @@ class Served:
         except NoViewer as error:
             raise CommandError(str(error)) from None
         except OSError as error:
-            raise CommandError(f"port {port} cannot be served on: {error.strerror}") from None
+            raise CommandError(f"cannot serve on port {port}: {error.strerror}") from None
         self._thread = threading.Thread(target=self._server.serve_forever, daemon=True)
         where = f"open {self._server.address} in a browser on this machine; Ctrl-C ends the view"
         console.print(f"{title}: {where}", soft_wrap=True)

@@ -133,7 +133,7 @@ class MountsEnv(gymnasium.Env):
             There is no run, or it has failed.
         """
         if not self._running:
-            raise ResetNeeded("the run has not begun or has failed, call reset() first")
+            raise ResetNeeded("the run has not started or has failed, call reset() first")
         self._action = self._checked(action)
         try:
             self._advance(self._lowest + 0.5 * self._span * (self._action.astype(float) + 1.0))
@@ -148,7 +148,7 @@ class MountsEnv(gymnasium.Env):
         except (TypeError, ValueError):
             raise ValueError(f"action is {action!r}, accepted are numbers from -1 to 1") from None
         if numbers.shape != self.action_space.shape:
-            raise ValueError(f"action has shape {numbers.shape}, accepted is {self.action_space.shape}, one a coil")
+            raise ValueError(f"action has shape {numbers.shape}, accepted is {self.action_space.shape}, one per coil")
         if not np.isfinite(numbers).all():
             raise ValueError(f"action is {action!r}, accepted are finite numbers from -1 to 1")
         return np.minimum(np.maximum(numbers, -1.0), 1.0)

@@ -28,7 +28,7 @@ class LoopNumbers(NamedTuple):
     stiffness: float  # N/m, in phase
     loss_stiffness: float  # N/m, a quarter of a period ahead
     damping: float  # N s/m, the viscous one that takes as much
-    heat: float  # J a cycle
+    heat: float  # J per cycle
     largest_force: float  # N
 
 

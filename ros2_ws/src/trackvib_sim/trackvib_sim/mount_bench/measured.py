@@ -43,7 +43,7 @@ def read_loops(path):
         try:
             rows = list(_rows(csv.reader(file)))
         except csv.Error as error:
-            raise LoopsFileError(f"is no CSV file: {error}") from None
+            raise LoopsFileError(f"is not a CSV file: {error}") from None
     values = np.array(rows).reshape(-1, len(COLUMNS))
     begins = np.flatnonzero((np.diff(values[:, 3]) != 0.0) | (np.diff(values[:, 0]) < 0.0)) + 1
     if len(begins) >= MOST_LOOPS:

@@ -48,8 +48,8 @@ class Answers:
         if names and _NOT_KNOWN_YET not in names:
             self._subscriptions.append(self._listen(_BEST_EFFORT))
             self._node.get_logger().warning(
-                f"{readable(', '.join(names))} answers on {topics.COIL_CURRENT} with best effort: it is heard, but an "
-                "answer may be lost on its way; the loop is meant for reliable ones"
+                f"{readable(', '.join(names))} answers on {topics.COIL_CURRENT} with best effort: its answers are "
+                "used, but may be lost in transit; use reliable QoS"
             )
 
 
@@ -60,7 +60,8 @@ def misfits(node, publishers):
             verdict, reason = qos_check_compatible(publisher.qos_profile, _asked_for(each.qos_profile))
             if verdict == QoSCompatibility.ERROR and each.node_name != _NOT_KNOWN_YET:
                 name = readable(f"{each.node_namespace.rstrip('/')}/{each.node_name}")
-                yield f"{name} does not hear {publisher.topic_name}, its QoS does not fit: {reason.rstrip(' ;')}"
+                yield f"{name} receives nothing on {publisher.topic_name}, its QoS is incompatible: "
+                f"{reason.rstrip(' ;')}"
 
 
 def _asked_for(profile):

@@ -102,9 +102,9 @@ class ControllerTrial:
         client = AsyncParameterClient(self._node, "controller")
         future = client.set_parameters_atomically([Parameter(name, value=value) for name, value in values.items()])
         if not self._patience.wait_until(future.done, _CHANGE_TIMEOUT):
-            raise ValueError("the controller does not answer to a recorded change of its law's parameters")
+            raise ValueError("the controller does not respond to a recorded change of its law's parameters")
         if not future.result().result.successful:
-            raise ValueError(f"the controller refuses a recorded change: {future.result().result.reason}")
+            raise ValueError(f"the controller rejects a recorded change: {future.result().result.reason}")
 
     def _spin(self, timeout):
         with put_off_interrupts():

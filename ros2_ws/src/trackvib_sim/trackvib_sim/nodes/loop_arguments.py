@@ -41,7 +41,7 @@ def _law_parameters(text):
     for word in text.split(","):
         name, equals, value = map(str.strip, word.partition("="))
         if not (equals and name and value):
-            raise ParameterError(f"law_parameters is {text!r}, accepted is NAME=VALUE, with commas between")
+            raise ParameterError(f"law_parameters is {text!r}, accepted is NAME=VALUE, separated by commas")
         values[name] = _scalar(value, name)
     return {CONTROLLER: values}
 
@@ -50,53 +50,56 @@ ARGUMENTS = {
     "vehicle": Argument(
         str,
         DEFAULT_VEHICLE,
-        "Vehicle that comes with the package, or a vehicle file.",
+        "Name of an included vehicle, or a vehicle file.",
         _of((SIMULATOR, "vehicle_file"), read=lambda name: str(find_vehicle(name).absolute())),
     ),
     "road": Argument(
         str,
         "E",
-        "Class by ISO 8608, A to H, or a file: profile (CSV), OpenCRG, road file (YAML), or a bag.",
+        "ISO 8608 class, A to H, or a file: profile (CSV), OpenCRG, road file (YAML), or a bag.",
         _of((ROAD, "road"), read=_road),
     ),
-    "speed": Argument(float, "10.0", "Speed in m/s; below 0 backwards.", _of((SIMULATOR, "speed"))),
+    "speed": Argument(float, "10.0", "Speed in m/s; negative for reverse.", _of((SIMULATOR, "speed"))),
     "drive": Argument(
         str,
         "",
-        "Drive file: speed, path and engine speed over time or distance, in place of a speed.",
+        "Drive file: speed, path and engine speed over time or distance. Replaces the speed.",
         _of((SIMULATOR, "drive"), read=lambda path: str(Path(path).absolute())),
     ),
     "gears": Argument(
-        bool, "", "Engine speed follows the vehicle's, through the vehicle file's gears.", _of((SIMULATOR, "gears"))
+        bool,
+        "",
+        "Derive engine speed from vehicle speed through the gears of the vehicle file.",
+        _of((SIMULATOR, "gears")),
     ),
     "duration": Argument(float, "10.0", "Simulated time in s.", _of((SIMULATOR, "duration"))),
     "law": Argument(str, "passive", "Control law", _of((CONTROLLER, "law"))),
     "law_parameters": Argument(
-        str, "", "Parameters of the law, such as firm_current=2.5, with commas between.", _law_parameters
+        str, "", "Parameters of the law, separated by commas, such as firm_current=2.5.", _law_parameters
     ),
     "seed": Argument(int, "1", "Seed of the road.", _of((ROAD, "seed"))),
     "physics_rate": Argument(
         int,
         "10000",
-        "Rate of the physics steps in Hz; `trackvib vehicle` tells the one that a vehicle needs.",
+        "Rate of the physics steps in Hz; `trackvib vehicle` prints the recommended one.",
         _of((SIMULATOR, "physics_rate")),
     ),
     "control_rate": Argument(
         int,
         "1000",
-        "Rate of the samples and of their answers in Hz.",
+        "Rate in Hz of the sensor samples and of the controller's answers.",
         _of((SIMULATOR, "control_rate"), (CONTROLLER, "sample_rate")),
     ),
     "measure_rate": Argument(
         int,
         "0",
-        "Rate in Hz of what is measured in the running gear: travel, forces, tension, torque; 0 for none.",
+        "Rate in Hz of running-gear signals: travel, forces, tension, torque; 0 for none.",
         _of((SIMULATOR, "measure_rate")),
     ),
     "view": Argument(
         bool,
         "",
-        f"Publish what viewers show, {VIEW_RATE} times a simulated second.",
+        f"Publish frames and markers for viewers, at {VIEW_RATE} Hz of simulated time.",
         _of((SIMULATOR, "view_rate"), read=lambda wanted: VIEW_RATE if wanted else 0),
     ),
 }

@@ -27,7 +27,7 @@ def message_type(name):
         It is not installed here, or is a part of a service or an action, of which there is no definition to go along.
     """
     if not _MESSAGE_TYPE.fullmatch(name):
-        raise ValueError(f"{name} is no message type")
+        raise ValueError(f"{name} is not a message type")
     package, kind, message = name.split("/")
     try:
         get_package_share_directory(package)  # nothing but packages of ROS is imported by a name from outside

@@ -7,7 +7,7 @@ than a later one for a node by its name. Here what comes later counts.
 import re
 
 import yaml
-from mr_mount_controller.node_base.parameter_files import is_wildcard, sections
+from mr_mount_controller.node_base.parameter_files import is_for, is_wildcard, of_no_node, sections
 from mr_mount_controller.node_base.parameters import ParameterError
 
 from ..yaml_text import YamlTextError, load, read_text
@@ -29,8 +29,8 @@ def full_namespace(name):
     """
     if not _NAMESPACE.fullmatch(name) or len(name) > _LONGEST:
         raise ParameterError(
-            f"namespace is {name!r}, accepted are at most {_LONGEST} letters, digits and _, in parts with a slash "
-            "between that begin with no digit"
+            f"namespace is {name!r}, accepted are at most {_LONGEST} letters, digits and _, in parts "
+            "separated by slashes that do not begin with a digit"
         )
     return f"/{name.lstrip('/')}"
 
@@ -44,10 +44,15 @@ class NodeParameters:
         Their names.
     namespace : str
         Full name of their namespace.
+
+    Attributes
+    ----------
+    notes : list of str
+        On sections of the files that are for none of the nodes.
     """
 
     def __init__(self, nodes, namespace="/"):
-        self.namespace = namespace
+        self.namespace, self.notes = namespace, []
         self._values = {node: {} for node in nodes}
         self._by_wildcard = {node: set() for node in nodes}
 
@@ -57,7 +62,7 @@ class NodeParameters:
         Raises
         ------
         ParameterError
-            The file cannot be read, or is no parameter file of ROS 2.
+            The file cannot be read, is not a parameter file of ROS 2, or no section of it is for any of the nodes.
         """
         name = f"{_WHAT} {str(path)!r}"
         try:
@@ -74,10 +79,19 @@ class NodeParameters:
                         f"{name}: {parameter} of {section} is {value!r}, accepted is a number, a text in quotes, true, "
                         "false, or a list of one of these"
                     )
-            pattern = _pattern(section)
             for node in self._values:
-                if pattern.fullmatch(self._full_name(node)):
+                if is_for(section, self._full_name(node)):
                     self._give(node, values, is_wildcard(section))
+        self._look_for_idle(name, [section for section, _ in found])
+
+    def _look_for_idle(self, name, found):
+        nodes = [self._full_name(node) for node in self._values]
+        idle = [section for section in found if not any(is_for(section, node) for node in nodes)]
+        if idle:
+            words = of_no_node(name, idle, nodes)
+            if idle == found:
+                raise ParameterError(words)
+            self.notes.append(words)
 
     def give(self, node, **values):
         """Give values to a node by its name."""
@@ -119,10 +133,3 @@ def _is_value(value):
     if isinstance(value, list):
         return all(type(each) in _SCALARS for each in value)
     return type(value) in _SCALARS
-
-
-def _pattern(section):
-    """Return the regular expression for names of nodes that ROS makes of a section's name."""
-    parts = (r"(/\w+)*" if part == "**" else r"/\w+" if part == "*" else "/" + re.escape(part)
-             for part in section.strip("/").split("/"))  # fmt: skip
-    return re.compile("".join(parts))

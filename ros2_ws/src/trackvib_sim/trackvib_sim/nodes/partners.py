@@ -63,7 +63,7 @@ class SecondClock:
         """Raise `NodeError` if there is one that is ahead."""
         if self.ahead:
             raise NodeError(
-                f"another simulator drives {self._topic} in this ROS domain; set another ROS_DOMAIN_ID or namespace"
+                f"another simulator publishes {self._topic} in this ROS domain; set another ROS_DOMAIN_ID or namespace"
             )
 
     def start_anew(self):

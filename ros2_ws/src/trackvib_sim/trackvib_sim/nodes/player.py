@@ -29,13 +29,13 @@ from .run_control import RunControl, services
 
 PARAMETERS = (
     Parameter("bag", "", "Folder of the bag, or one .mcap file."),
-    Parameter("rate", 1.0, "Time of the bag per wall time.", "", 0.01, 100.0),
-    Parameter("start", 0.0, "Where to begin, counted from the bag's first message.", "s", 0.0, 1e6),
-    Parameter("end", 0.0, "Where to end, counted likewise; 0 for the bag's last message.", "s", 0.0, 1e6),
-    Parameter("loop", False, "Begin again at the end."),
+    Parameter("rate", 1.0, "Bag time per wall time.", "", 0.01, 100.0),
+    Parameter("start", 0.0, "Start time, relative to the first message of the bag.", "s", 0.0, 1e6),
+    Parameter("end", 0.0, "End time, relative to the first message of the bag; 0 for the last message.", "s", 0.0, 1e6),
+    Parameter("loop", False, "Start again at the end."),
     Parameter("topics", ["*"], "Topics to play, by name or pattern (`*`, `?`)."),
     Parameter(
-        "largest_chunk", largest_chunk.get(), "Memory that a record of the bag may take.", "MiB", *LARGEST_CHUNKS
+        "largest_chunk", largest_chunk.get(), "Largest accepted size of a record of the bag.", "MiB", *LARGEST_CHUNKS
     ),
 )
 _DEPTH = 1000  # messages that may wait, or are kept for late joiners; the bag does not tell
@@ -61,7 +61,7 @@ class PlayerNode(LoopNode):
         largest_chunk.set(self.settings["largest_chunk"])
         try:
             if not self.settings["bag"]:
-                raise ParameterError("player: parameter 'bag' is empty, accepted is the place of a bag")
+                raise ParameterError("player: parameter 'bag' is empty, accepted is the path of a bag")
             self._bag = OpenBag(self.settings["bag"], self._is_wanted)
         except BagError as error:
             raise NodeError(str(error)) from None
@@ -77,7 +77,7 @@ class PlayerNode(LoopNode):
     def run(self):
         """Wait until somebody listens, then play until the end or a stop."""
         names = sorted(publisher.topic_name for publisher in self._outputs.values())  # as remapped
-        self.get_logger().info(f"waiting for somebody who listens to {', '.join(names)}")
+        self.get_logger().info(f"waiting for a subscriber to {', '.join(names)}")
         gathering = Gathering(self._subscribers)
         self.spin_until(gathering.complete)
         while not self.stopping():
@@ -132,7 +132,7 @@ class PlayerNode(LoopNode):
         for topic, reason in left_out.items():
             self.get_logger().warning(f"{readable(topic)} is left out: {readable(reason)}")
         if connections and not played:
-            raise NodeError(f"nothing of bag {self.settings['bag']!r} can be played")
+            raise NodeError(f"nothing in bag {self.settings['bag']!r} can be played")
         return played
 
     def _prepare_output(self, connection):
@@ -146,7 +146,7 @@ class PlayerNode(LoopNode):
             output = self.create_publisher(kind, connection.topic.removeprefix("/"), _qos(connection))
             self._outputs[connection.topic] = output
         elif output.msg_type is not kind:
-            raise ValueError(f"{connection.type_name} is its second type")
+            raise ValueError(f"{connection.type_name} is a second type on this topic")
         if renew:
             self._renewals[connection.number] = renew
 
@@ -199,8 +199,8 @@ class PlayerNode(LoopNode):
         if connection.topic not in self._misfits:
             self._misfits.add(connection.topic)
             self.get_logger().warning(
-                f"a message on {connection.topic} is left out, as {connection.type_name} it does not fit: {error}; so "
-                "are further ones"
+                f"a message on {connection.topic} is left out, it does not match {connection.type_name}: {error}; "
+                "further ones are counted only"
             )
 
     def _wait_until(self, stamp):

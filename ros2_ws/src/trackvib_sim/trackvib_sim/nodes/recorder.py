@@ -41,20 +41,18 @@ PARAMETERS = (
     Parameter(
         "bag",
         "",
-        "Folder of the bag; empty for bag_<date and time> where the node was started. Each further epoch goes to one "
-        "of its own, <bag>_epoch_2 and so on.",
+        "Folder of the bag; empty for bag_<date and time> in the working directory. Each further epoch is written to "
+        "a separate bag, <bag>_epoch_2 and so on.",
     ),
-    Parameter(
-        "topics", DEFAULT_TOPICS, "Topics to record; recording starts when all of them are there. [''] for none."
-    ),
+    Parameter("topics", DEFAULT_TOPICS, "Topics to record; recording starts when all of them exist. [''] for none."),
     Parameter(
         "pattern",
         "",
-        "Regular expression; further topics of the recorder's namespace are recorded as soon as they appear if it is "
-        "found in their name, as `/chassis/imu`, without that namespace.",
+        "Regular expression for further topics in the recorder's namespace, which are recorded as soon as they "
+        "appear. It is searched in the name without the namespace, such as `/chassis/imu`.",
     ),
-    Parameter("compression", "zstd", "How the chunks of the bag are compressed.", choices=tuple(COMPRESSIONS)),
-    Parameter("chunk_size", 1024, "Size of a chunk before compression.", "KiB", 16, 65536),
+    Parameter("compression", "zstd", "Compression of the chunks of the bag.", choices=tuple(COMPRESSIONS)),
+    Parameter("chunk_size", 1024, "Chunk size before compression.", "KiB", 16, 65536),
 )
 _NAMES_TIMEOUT = 3.0  # s
 _REST = 0.02  # s between looks; waking for every message would take the processor from the loop
@@ -133,7 +131,7 @@ class RecorderNode(LoopNode):
             self._flush_in_time()
             if self.settings["pattern"] and time.monotonic() - looked > _LOOK:
                 for name in self._take_up(self._choice.present()):
-                    self.get_logger().info(f"{name} has appeared and is recorded, too")
+                    self.get_logger().info(f"{name} has appeared and is recorded")
                 looked = time.monotonic()
             if self._undescribed:
                 self._describe(self._topics)
@@ -159,7 +157,7 @@ class RecorderNode(LoopNode):
     def _given_up(self, error):
         path, self._bag = self._bag.path, None
         return NodeError(
-            f"bag {str(path)!r} cannot be written any more: {error.strerror}; `trackvib bag repair` completes it"
+            f"bag {str(path)!r} can no longer be written: {error.strerror}; `trackvib bag repair` repairs it"
         )
 
     def _begin_epoch(self):
@@ -168,7 +166,7 @@ class RecorderNode(LoopNode):
         self._epoch += 1
         self._times, self._described, self._undescribed = Timekeeping(), set(), True
         self._open(f"{self._path}_epoch_{self._epoch}")
-        self.get_logger().info(plain_line(f"the simulation has begun anew, recording to {self._bag.path}"))
+        self.get_logger().info(plain_line(f"the simulation has restarted, recording to {self._bag.path}"))
 
     def _describe(self, names):
         """Write down what makes the messages of some topics, where the bag does not have it yet."""
@@ -179,7 +177,7 @@ class RecorderNode(LoopNode):
             self._described.add(name)
             parameters = parameters_of(self, name)
             if parameters is None:
-                self.get_logger().warning(f"{name} does not tell its parameters; the bag goes without them")
+                self.get_logger().warning(f"{name} does not report its parameters; they are missing in the bag")
             write_parameters(self._bag, name, parameters)
 
     def _take_up(self, names):

@@ -16,14 +16,25 @@ from ..road.iso8608 import FADE, LEVEL_UNTIL, TREAD, Exponential, Iso8608Road, I
 from ..road_sources.road_file import RoadError, find_road
 
 PARAMETERS = (
-    Parameter("road", "E", "Class by ISO 8608, A to H, or a file: profile (CSV), OpenCRG, road file (YAML), or a bag."),
+    Parameter("road", "E", "ISO 8608 class, A to H, or a file: profile (CSV), OpenCRG, road file (YAML), or a bag."),
     Parameter("seed", 1, "Seed of the profile; the same seed gives the same road.", "", 0, 10**9),
-    Parameter("coherence", "isotropic", "Of left and right, over frequency.", choices=("isotropic", "exponential")),
-    Parameter("track_distance", TREAD, "Distance of left and right on an isotropic surface.", "m", 0.0, 10.0),
-    Parameter("coherence_length", 1.4, "Length l of a coherence exp(-l n).", "m", 0.0, 100.0),
+    Parameter(
+        "coherence",
+        "isotropic",
+        "Model of the coherence of left and right profile.",
+        choices=("isotropic", "exponential"),
+    ),
+    Parameter(
+        "track_distance", TREAD, "Distance between left and right profile on an isotropic surface.", "m", 0.0, 10.0
+    ),
+    Parameter(
+        "coherence_length", 1.4, "Length l of the coherence exp(-l n) over spatial frequency n.", "m", 0.0, 100.0
+    ),
     Parameter("level_until", LEVEL_UNTIL, "Distance up to which the road is level.", "m", -1000.0, 1e6),
-    Parameter("fade", FADE, "Distance over which the roughness then fades in.", "m", 0.1, 1000.0),
-    Parameter("horizon", 50.0, "Distance ahead of the vehicle that is always published.", "m", 10.0, 200.0),
+    Parameter("fade", FADE, "Distance over which the roughness then rises to its full level.", "m", 0.1, 1000.0),
+    Parameter(
+        "horizon", 50.0, "Distance ahead of the vehicle for which the road is always published.", "m", 10.0, 200.0
+    ),
 )
 _FARTHEST = 1e8  # m, more than the longest run goes
 

@@ -10,10 +10,10 @@ def services(step):
     return tuple(
         (name, "std_srvs/srv/Trigger", meaning)
         for name, meaning in (
-            ("pause", "Lets time stand still."),
-            ("resume", "Lets a paused run go on."),
-            ("step", f"Takes a paused run one {step} further."),
-            ("reset", "Begins the run anew."),
+            ("pause", "Pauses the run."),
+            ("resume", "Resumes a paused run."),
+            ("step", f"Advances a paused run by one {step}."),
+            ("reset", "Restarts the run."),
         )
     )
 
@@ -117,7 +117,7 @@ class RunControl:
         self.look()
 
     def begin_epoch(self):
-        """Note that the run begins anew; steps that were asked for before are forgotten."""
+        """Note that the run restarts; steps that were asked for before are forgotten."""
         self.epoch += 1
         self.reset_wanted, self._steps = False, 0
         self.look()
@@ -139,14 +139,14 @@ class RunControl:
 
     def _step(self, _request, response):
         if not self._paused:
-            response.success, response.message = False, "a run that is not paused takes no single steps"
+            response.success, response.message = False, "single steps need a paused run"
             return response
         self.add_steps(1)
-        return self._answer(response, "one period on, from")
+        return self._answer(response, "one period, from")
 
     def _reset(self, _request, response):
         if self.state == "waiting" and not self.begun:
-            response.success, response.message = False, "the run has not begun"
+            response.success, response.message = False, "the run has not started"
             return response
         self.reset()
         return self._answer(response, "reset at")

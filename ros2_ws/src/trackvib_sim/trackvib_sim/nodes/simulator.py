@@ -120,7 +120,7 @@ class SimulatorNode(LoopNode):
         self._output.introduce()
         self.spin_until(self._simulation.road_is_enough, _ROAD_PATIENCE)
         self._begin_counts()
-        self.get_logger().info(f"epoch {self._control.epoch}: the run begins anew")
+        self.get_logger().info(f"epoch {self._control.epoch}: the run restarts")
         self._publish_diagnostics()
 
     def _pause(self):
@@ -166,13 +166,13 @@ class SimulatorNode(LoopNode):
         """Wait until road, controller and recorder are there and nobody else has come for a moment."""
         recorder = ", a recorder" if self._recorder else ""
         self.get_logger().info(
-            f"waiting for a road on {topics.ROAD_PROFILE}, a controller that listens to {topics.CHASSIS_IMU} or "
+            f"waiting for a road on {topics.ROAD_PROFILE}, a controller that subscribes to {topics.CHASSIS_IMU} or "
             f"{topics.POWERTRAIN_IMU} and answers on {topics.COIL_CURRENT}{recorder}"
         )
         gathering = Gathering(self._present)
         self._stand_until(lambda: gathering.complete() or self._second_clock.ahead, self._tell_misfits)
         if not self.stopping():
-            self.get_logger().info("all partners are there, running")
+            self.get_logger().info("all partners are present, running")
 
     def _present(self):
         recorder = self._recorder is None or self._recorder.there
@@ -217,7 +217,7 @@ class SimulatorNode(LoopNode):
                 self._lockstep.counts["silent_periods"] += 1
             return
         if self._silent:
-            self.get_logger().info("the controller is heard again, waiting for every answer")
+            self.get_logger().info("the controller answers again, waiting for every answer")
         self._silent = False
         if not self.spin_until(answered, self.settings["answer_timeout"]) and not self.stopping():
             self._lockstep.counts["silent_periods"] += 1
@@ -228,7 +228,7 @@ class SimulatorNode(LoopNode):
         counts = self._lockstep.counts
         if time.perf_counter() > due + self._simulation.settings.rates.period / NANO:
             if not counts["overruns"]:
-                self.get_logger().warning("this machine is slower than the pace asked for; overruns are counted")
+                self.get_logger().warning("this machine is slower than the requested pace; overruns are counted")
             counts["overruns"] += 1
         while (left := due - time.perf_counter()) > 0.0 and not self.stopping():
             self.spin_once(left)
@@ -252,7 +252,7 @@ class SimulatorNode(LoopNode):
         if policy == "passive":
             self._lockstep.fall_back(self.settings["passive_current"])
         action = "holding the last current" if policy == "hold" else "falling back to the passive current"
-        self.get_logger().warning(f"{what}; {action} until the controller is heard again")
+        self.get_logger().warning(f"{what}; {action} until the controller answers again")
         self._publish_diagnostics()
 
     # --- messages ---
@@ -281,7 +281,7 @@ class SimulatorNode(LoopNode):
         controllers = self._answers.count()
         if controllers > 1 and not self._warned:
             self._warned = True
-            self.get_logger().warning(f"{controllers} nodes answer on {topics.COIL_CURRENT}; the first answer counts")
+            self.get_logger().warning(f"{controllers} nodes answer on {topics.COIL_CURRENT}; the first answer is used")
         level, values = health(self._control, self._simulation, self._lockstep, self._phases, self._silent, controllers)
         values["refused"] = self.refused
         values["duration"] = self.settings["duration"]

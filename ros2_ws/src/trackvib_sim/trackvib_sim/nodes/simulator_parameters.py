@@ -17,16 +17,18 @@ from ..vehicle.system import Operation
 from ..vehicle.vehicle_file import VehicleFileError, parse_vehicle, read_vehicle
 
 PARAMETERS = (
-    Parameter("vehicle_file", "", "Vehicle file; empty for the one that comes with the package."),
-    Parameter("drive", "", "Drive file: speed, path and engine speed over time or distance. Empty for none."),
+    Parameter("vehicle_file", "", "Vehicle file; empty for the default vehicle."),
+    Parameter("drive", "", "Drive file: speed, path and engine speed over time or distance; empty for none."),
     Parameter(
-        "speed", 10.0, "Speed to keep, where no drive file says it; below 0 backwards.", "m/s", -FASTEST, FASTEST
+        "speed", 10.0, "Constant speed, if no drive file gives it; negative for reverse.", "m/s", -FASTEST, FASTEST
     ),
-    Parameter("gears", False, "Whether engine speed follows the vehicle's, through the gears of the vehicle file."),
+    Parameter(
+        "gears", False, "Whether engine speed is derived from vehicle speed through the gears of the vehicle file."
+    ),
     Parameter(
         "engine_speed",
         1650.0,
-        "Engine speed without gears, where no drive file says it; 0 for a standing engine.",
+        "Engine speed without gears, if no drive file gives it; 0 for an engine at rest.",
         "r/min",
         0.0,
         4000.0,
@@ -38,7 +40,7 @@ PARAMETERS = (
         choices=("forces", "displacement"),
     ),
     Parameter(
-        "track_phase", 0.25, "Part of a pitch by which the right track lies ahead of the left one.", "", 0.0, 1.0
+        "track_phase", 0.25, "Fraction of a pitch by which the right track is ahead of the left one.", "", 0.0, 1.0
     ),
     Parameter("duration", 0.0, "Simulated time after which the node ends; 0 for no end.", "s", 0.0, 1e6),
     Parameter(
@@ -47,21 +49,28 @@ PARAMETERS = (
         "Wait for the answer to every sample and run as fast as that allows, or follow the wall clock.",
         choices=("lockstep", "realtime"),
     ),
-    Parameter("real_time_factor", 1.0, "Simulated per wall time where pace is realtime.", "", 0.01, 100.0),
-    Parameter("answer_timeout", 1.0, "Wall time after which a controller is silent.", "s", 0.001, 60.0),
+    Parameter("real_time_factor", 1.0, "Simulated time per wall time if pace is realtime.", "", 0.01, 100.0),
+    Parameter(
+        "answer_timeout",
+        1.0,
+        "Wall time without an answer after which a controller counts as silent.",
+        "s",
+        0.001,
+        60.0,
+    ),
     Parameter(
         "on_silence",
         "hold",
         "When the controller is silent: hold the last current, fall back to passive_current, or stop.",
         choices=("hold", "passive", "stop"),
     ),
-    Parameter("passive_current", 1.0, "Current before the first answer, and of on_silence passive.", "A", 0.0, 5.0),
+    Parameter("passive_current", 1.0, "Current before the first answer, and with on_silence passive.", "A", 0.0, 5.0),
     Parameter("physics_rate", 10_000, "Rate of the physics steps.", "Hz", 1000, 200_000),
     Parameter("control_rate", 1_000, "Rate of the Imu messages and of the control loop.", "Hz", 10, 10_000),
     Parameter("odometry_rate", 100, "Rate of odometry and /clock.", "Hz", 1, 10_000),
     Parameter("view_rate", 0, "Rate of frames, joint states and track links for viewers; 0 for none.", "Hz", 0, 1_000),
-    Parameter("measure_rate", 0, "Rate of what is measured in the running gear; 0 for none.", "Hz", 0, 10_000),
-    Parameter("wait_for_recorder", False, "Start only with a recorder, and never run far ahead of it."),
+    Parameter("measure_rate", 0, "Rate of the running-gear signals; 0 for none.", "Hz", 0, 10_000),
+    Parameter("wait_for_recorder", False, "Wait for a recorder before the start, and never run far ahead of it."),
 )
 
 
@@ -85,8 +94,8 @@ def prepare(values):
     for name in ("view_rate", "measure_rate"):
         if values[name] and values["control_rate"] % values[name]:
             raise ParameterError(
-                f"simulator: control_rate {values['control_rate']} Hz and {name} {values[name]} Hz clash: the first "
-                "must be a multiple of the second"
+                f"simulator: control_rate {values['control_rate']} Hz and {name} {values[name]} Hz conflict: the "
+                "first must be a multiple of the second"
             )
     return simulation_of(vehicle, values, drive), usable_current(vehicle), text, drive
 
@@ -131,7 +140,7 @@ def prepare_again(recording):
     """
     _, recorded = parameters_with(recording.provenance, "physics_rate")
     if not recorded:
-        raise ParameterError("the bag does not tell the parameters of its simulator")
+        raise ParameterError("the bag does not hold the parameters of its simulator")
     values = {parameter.name: recorded_value(parameter, recorded) for parameter in PARAMETERS}
     if values["drive"] and not recording.drive_file:
         raise ParameterError(f"the bag holds no {DRIVE_DESCRIPTION}, but its run had a drive file")

@@ -41,16 +41,20 @@ _STATES = {
     SimulationState.STATE_QUITTING: "quitting",
 }
 _SERVICES = (
-    (GetSimulatorFeatures, "get_simulator_features", "What it can do of the standard."),
+    (GetSimulatorFeatures, "get_simulator_features", "The features of the standard that it supports."),
     (GetSimulationState, "get_simulation_state", "Whether it is stopped, playing or paused."),
-    (SetSimulationState, "set_simulation_state", "Play, pause, stop (pause and begin anew) or quit."),
-    (StepSimulation, "step_simulation", "So many periods of a paused run; answered when they are done."),
-    (ResetSimulation, "reset_simulation", "Begins the run anew; answered when it has."),
-    (GetEntityState, "get_entity_state", "Place and motion of a body, by the name of its frame."),
+    (SetSimulationState, "set_simulation_state", "Play, pause, stop (pause and restart) or quit."),
+    (StepSimulation, "step_simulation", "Advances a paused run by a number of periods; answered when they are done."),
+    (ResetSimulation, "reset_simulation", "Restarts the run; answered when done."),
+    (GetEntityState, "get_entity_state", "Pose and twist of a body, by the name of its frame."),
 )
 SERVICES = (
     *((name, f"simulation_interfaces/srv/{kind.__name__}", meaning) for kind, name, meaning in _SERVICES),
-    ("simulate_steps", "simulation_interfaces/action/SimulateSteps", "The same as an action, with word of each."),
+    (
+        "simulate_steps",
+        "simulation_interfaces/action/SimulateSteps",
+        "The same as an action, with feedback after each period.",
+    ),
 )
 
 
@@ -113,7 +117,7 @@ class StandardServices:
             return response
         if wanted == self._state():
             already = SetSimulationState.Response.ALREADY_IN_TARGET_STATE
-            response.result = _failed(f"it is {_STATES[wanted]} already", already)
+            response.result = _failed(f"it is already {_STATES[wanted]}", already)
             return response
         if wanted == SimulationState.STATE_QUITTING:
             control.quit()
@@ -158,7 +162,7 @@ class StandardServices:
         """Do periods of a paused run one by one; returns the `Result` when they are done, or no more can be."""
         control = self._control
         if not control.paused:
-            return _failed("a run that is not paused takes no steps")
+            return _failed("steps need a paused run")
         if count < 1:
             return _failed(f"steps is {count}, accepted is a whole number from 1 on")
         self._stopped, epoch = False, control.epoch
@@ -178,10 +182,11 @@ class StandardServices:
 
     async def _reset_simulation(self, request, response):
         if request.scope and request.scope & _TOGETHER != _TOGETHER:
-            told = f"scope is {request.scope}, accepted are 0, {_TOGETHER} and 255: time and state begin anew together"
+            # a jump of one alone would tear path, drive and recording apart, and no replay could follow
+            told = f"scope is {request.scope}, accepted are 0, {_TOGETHER} and 255: time and state are reset together"
             response.result = _failed(told, Result.RESULT_FEATURE_UNSUPPORTED)
         elif not self._control.begun:
-            response.result = _failed("the run has not begun", Result.RESULT_INCORRECT_STATE)
+            response.result = _failed("the run has not started", Result.RESULT_INCORRECT_STATE)
         else:
             await self._reset()
             response.result = _ok()
@@ -198,7 +203,7 @@ class StandardServices:
         except KeyError:
             known = ", ".join(self._entities.names)
             response.result = _failed(
-                f"there is no {shortened(repr(request.entity))}, there are: {known}", Result.RESULT_NOT_FOUND
+                f"unknown entity {shortened(repr(request.entity))}, known are: {known}", Result.RESULT_NOT_FOUND
             )
         return response
 

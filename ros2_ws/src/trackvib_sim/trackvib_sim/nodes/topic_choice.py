@@ -34,7 +34,7 @@ class TopicChoice:
     ----------
     node : Node
     names : list of str
-        Topics to wait for; empty texts are passed over.
+        Topics to wait for; empty texts are skipped.
     pattern : str
         Regular expression; empty for none. It finds topics in the recorder's namespace by their names in that, and
         never the recorder's own.
@@ -58,14 +58,16 @@ class TopicChoice:
                 f"recorder: parameter 'pattern' is {pattern!r}, accepted are regular expressions: {error}"
             ) from None
         if not self.named and self._pattern is None:
-            raise ParameterError("recorder: parameters 'topics' and 'pattern' are empty, nothing is to be recorded")
+            raise ParameterError(
+                "recorder: parameters 'topics' and 'pattern' are empty, at least one topic or a pattern is needed"
+            )
         # rare and telling: who records what a law answers gets what changed of it along
         answers = node.resolve_topic_name(topics.COIL_CURRENT) in self.named
         self._along = {node.resolve_topic_name(topics.LAW_PARAMETERS)} if answers else set()
         self._own = {node.resolve_topic_name(name) for name in (topics.RECORDED, topics.RECORDED_ANSWERS)}
 
     def __str__(self):
-        found = [f"topics like '{self._pattern.pattern}'"] if self._pattern else []
+        found = [f"topics matching '{self._pattern.pattern}'"] if self._pattern else []
         return ", ".join(sorted(self.named) + found)
 
     def present(self):

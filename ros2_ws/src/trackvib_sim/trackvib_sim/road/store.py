@@ -44,13 +44,15 @@ class RoadStore:
             The patch cannot be used; the message names item, value and what is accepted.
         """
         if len(left) != len(right) or len(left) < 2:
-            raise ValueError(f"left has {len(left)} samples and right {len(right)}, must be as many and at least 2")
+            raise ValueError(
+                f"left has {len(left)} samples and right {len(right)}, must have equal numbers, at least 2"
+            )
         if not _FINEST <= spacing <= _COARSEST:
             raise ValueError(f"spacing is {spacing} m, must be {_FINEST} to {_COARSEST} m")
         if self._spacing not in (None, spacing):
             raise ValueError(f"spacing is {spacing} m, must be {self._spacing} m as of the road before")
         if self._samples + len(left) > _MOST:
-            raise ValueError(f"{self._samples} samples are held already, {len(left)} more are beyond {_MOST}")
+            raise ValueError(f"{self._samples} samples are already held, {len(left)} more exceed {_MOST}")
         heights = np.array([left, right], dtype=float)
         if not np.isfinite(heights).all():
             raise ValueError("a height is not finite, all must be")
@@ -62,7 +64,9 @@ class RoadStore:
         held = patches.get(first, heights)
         common = min(held.shape[1], heights.shape[1])
         if not np.array_equal(held[:, :common], heights[:, :common]):
-            raise ValueError(f"start is {start} m, where a patch with other heights is held already: two roads?")
+            raise ValueError(
+                f"start is {start} m, where the road is already known with other heights: are there two roads?"
+            )
         if heights.shape[1] >= held.shape[1]:
             self._patches.setdefault(spacing, {})[first] = heights
             self._samples += heights.shape[1]

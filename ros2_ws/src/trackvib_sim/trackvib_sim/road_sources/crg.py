@@ -49,7 +49,7 @@ def read_crg(path, tread):
     with open_ordinary(path, _LARGEST) as file:
         end = _END_OF_HEAD.search(file.read(_LONGEST_HEAD))
         if end is None:
-            raise ProfileError(f"{name} is no OpenCRG file: no line $$$$ ends its head")
+            raise ProfileError(f"{name} is not an OpenCRG file: no line $$$$ ends its header")
         head = _head(end.string[: end.start()].decode("latin-1"), name)
         file.seek(end.end())
         grid = _grid(file.read(), head, name)
@@ -82,9 +82,9 @@ def _head(text, name):
         if raw.startswith("$"):
             section = line.upper()
         elif section == "$ROAD_CRG_FILE":
-            raise ProfileError(f"{name} only refers to another file, name that one")
+            raise ProfileError(f"{name} only refers to another file; give that file")
         elif section == "$ROAD_CRG_MODS" and "=" in line:
-            raise ProfileError(f"{name} has modifiers ($ROAD_CRG_MODS), accepted are files without; apply them before")
+            raise ProfileError(f"{name} has modifiers ($ROAD_CRG_MODS), accepted are files without; apply them first")
         elif section == "$ROAD_CRG" and "=" in line:
             key, value = line.split("=", 1)
             values[key.strip().lower()] = _number(value)
@@ -125,7 +125,7 @@ def _grid(data, head, name):
         numbers = np.frombuffer(data, kind, len(data) // kind.itemsize)
         whole = len(numbers) // count * count
         if not np.isnan(numbers[whole:]).all():
-            raise ProfileError(f"{name} is cut short: {len(numbers)} numbers are no whole rows of {count}")
+            raise ProfileError(f"{name} is cut short: {len(numbers)} numbers do not make whole rows of {count}")
         grid = numbers[:whole].reshape(-1, count)
         told = np.flatnonzero(~np.isnan(grid).all(axis=1))
         grid = grid[: told[-1] + 1 if told.size else 0]  # without rows of nothing but padding
@@ -140,7 +140,7 @@ def _text_grid(data, count, width, on_line, name):
     lines = [line for line in data.splitlines() if line.strip() and not line.startswith((b"* ", b"$"))]
     deep = -(-count // on_line)
     if len(lines) % deep:
-        raise ProfileError(f"{name} is cut short: {len(lines)} lines are no whole rows of {deep}")
+        raise ProfileError(f"{name} is cut short: {len(lines)} lines do not make whole rows of {deep}")
     numbers = array("d")
     for first in range(0, len(lines), deep):
         cells = []
@@ -199,7 +199,7 @@ def _require_straight(phi, values, name):
     if turns > STRAIGHT:
         raise ProfileError(
             f"{name} is a road with a curve, its heading changes by {turns:.3g} rad; accepted are straight ones "
-            f"(up to {STRAIGHT:g} rad), for curves are those of the drive"
+            f"(up to {STRAIGHT:g} rad), curves are part of the drive"
         )
 
 
@@ -214,7 +214,7 @@ def _across(head, sections, name):
         return np.array(places)
     step, right, left = (values.get(f"long_section_v_{what}") for what in ("increment", "right", "left"))
     if not sections or step is None or not step > 0.0:
-        raise ProfileError(f"{name} does not tell where its {len(sections)} long sections lie")
+        raise ProfileError(f"{name} does not give the positions of its {len(sections)} long sections")
     if right is None:
         right = -0.5 * step * (len(sections) - 1) if left is None else left - step * (len(sections) - 1)
     return right + step * np.arange(len(sections))
@@ -229,5 +229,5 @@ def _along(across, grid, sections, v, name):
         heights = (1.0 - share) * heights + share * grid[:, sections[left - 1]]
     missing = np.flatnonzero(~np.isfinite(heights))
     if missing.size:
-        raise ProfileError(f"{name}: no height in row {missing[0] + 1} at {v:g} m across, where a track runs")
+        raise ProfileError(f"{name}: no height in row {missing[0] + 1} at {v:g} m across, under a track")
     return heights

@@ -71,7 +71,7 @@ class RandomGround(_Part):
             raise ValueError("one of class and level must be given")
         own = {"waviness", "lowest", "highest"} & self.model_fields_set
         if self.road_class and own:
-            raise ValueError(f"{', '.join(sorted(own))} is given beside a class, accepted is it beside a level")
+            raise ValueError(f"{', '.join(sorted(own))} is given with a class, accepted only with a level")
         if not self.lowest < self.highest:
             raise ValueError(f"lowest is {self.lowest:g} 1/m and highest {self.highest:g}, lowest must be below")
         if not self._roughness.rms <= HIGHEST_RMS:
@@ -189,7 +189,7 @@ def road_from_file(path, tread, start=None, reverse=False, repeat=False):
             profile = recorded.profile
         else:
             accepted = f"a class ({', '.join(CLASSES)}), .csv, .crg, .yaml or a bag"
-            raise RoadError(f"road {shortened(str(path))!r} is not there; accepted are {accepted}")
+            raise RoadError(f"road {shortened(str(path))!r} does not exist; accepted are {accepted}")
     except ProfileError as error:
         raise RoadError(str(error)) from None
     except OSError as error:

@@ -113,7 +113,7 @@ def _name(body):
 def _check_body(body, names):
     name = _name(body)
     if body.name in names:
-        raise ValueError(f"{name}: the name is taken already, names must differ")
+        raise ValueError(f"{name}: the name is already used, must be unique")
     if not (isfinite(body.mass) and body.mass > 0.0):
         raise ValueError(f"{name}: mass is {body.mass} kg, must be finite and > 0")
     _check_numbers(f"{name}: centre", body.centre, 3)

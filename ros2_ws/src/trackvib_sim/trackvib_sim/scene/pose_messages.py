@@ -57,19 +57,19 @@ def _stamp(message):
 
 def _placed(found, bodies):
     """Return places (n, 3) and attitudes (n, 4) of frames from those of their parents."""
-    known = {ROAD_FRAME: (np.zeros(3), Rotation.identity())}
-
-    def of(frame, depth=0):
-        if frame not in known:
-            if depth > _DEEPEST:
-                raise ValueError(f"frames more than {_DEEPEST} deep")
-            parent, place, turn = found[frame]
-            origin, axes = of(parent, depth + 1)
-            known[frame] = origin + axes.apply(place), axes * Rotation.from_quat(turn)
-        return known[frame]
-
-    placed = [of(frame) for frame in bodies]
-    place = np.array([place for place, _ in placed])
-    if not np.isfinite(place).all():
+    row, place, turn = {ROAD_FRAME: 0}, np.zeros((1, 3)), Rotation.identity(1)
+    for _ in range(_DEEPEST):
+        if row.keys() >= set(bodies):
+            break
+        new = [name for name, (parent, *_) in found.items() if parent in row and name not in row]
+        if not new:
+            raise ValueError("frames that are not connected")
+        parents, places, turns = zip(*(found[name] for name in new), strict=True)
+        below = [row[name] for name in parents]
+        place = np.concatenate((place, place[below] + turn[below].apply(places)))
+        turn = Rotation.concatenate((turn, turn[below] * Rotation.from_quat(turns)))
+        row |= {name: len(row) + k for k, name in enumerate(new)}
+    chosen = [row[name] for name in bodies]
+    if not np.isfinite(place[chosen]).all():
         raise ValueError("a place is not finite")
-    return place, np.array([turn.as_quat() for _, turn in placed])
+    return place[chosen], turn[chosen].as_quat()

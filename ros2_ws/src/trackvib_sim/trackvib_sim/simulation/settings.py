@@ -31,7 +31,9 @@ class Rates:
         for fast, slow in pairs:
             f, s = getattr(self, fast.removesuffix("_rate")), getattr(self, slow.removesuffix("_rate"))
             if f % s:
-                raise ValueError(f"{fast} {f} Hz and {slow} {s} Hz clash: the first must be a multiple of the second")
+                raise ValueError(
+                    f"{fast} {f} Hz and {slow} {s} Hz conflict: the first must be a multiple of the second"
+                )
         if NANO % self.physics:
             raise ValueError(f"physics_rate {self.physics} Hz does not divide a second into whole nanoseconds")
 

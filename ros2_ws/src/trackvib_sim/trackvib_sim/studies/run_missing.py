@@ -42,7 +42,7 @@ def run_missing(vehicle, cases, store, scheduler, progress, description, run=dri
 def run_shown(vehicle, cases, store, folder, console, scheduler, run=drive, description="runs"):
     """Return what `run_missing` does, with a bar on the `console`, and a line on runs in `folder` that do not count."""
     if store.foreign:
-        console.print(f"{store.foreign} runs in {folder} are of another vehicle or version and are not used")
+        console.print(f"{store.foreign} runs in {folder} are from another vehicle or version and are not used")
     columns = (Description(), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console) as progress:
         return run_missing(vehicle, cases, store, scheduler, progress, description, run)

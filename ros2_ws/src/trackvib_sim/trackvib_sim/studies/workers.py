@@ -104,9 +104,9 @@ def finished(client, function, tasks):
             for future in done:
                 yield number[future], future.result()
     except CancelledError:
-        raise WorkersError("the Dask scheduler is gone") from None
+        raise WorkersError("the connection to the Dask scheduler is lost") from None
     except KilledWorker as error:
-        raise WorkersError(f"workers that take up a case die: {error}") from None
+        raise WorkersError(f"workers die while running a case: {error}") from None
     except ImportError as error:
         raise WorkersError(f"a worker cannot load trackvib: {error}") from None
 

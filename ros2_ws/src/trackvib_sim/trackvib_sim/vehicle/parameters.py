@@ -75,8 +75,8 @@ class DrivelineParameters(Section):
             raise ValueError(f"ratios are {self.ratios}, each must be below the one before")
         if len(self.curve_speed) < 2 or len(self.curve_speed) != len(self.curve_torque):
             raise ValueError(
-                f"curve_speed has {len(self.curve_speed)} numbers and curve_torque {len(self.curve_torque)}, must be "
-                "as many and at least 2"
+                f"curve_speed has {len(self.curve_speed)} numbers and curve_torque {len(self.curve_torque)}, must "
+                "have equal numbers, at least 2"
             )
         if any(high <= low for low, high in pairwise(self.curve_speed)):
             raise ValueError(f"curve_speed is {self.curve_speed}, each must be above the one before")
@@ -169,7 +169,9 @@ class Vehicle(Section):
         known = [HULL]
         for name, body in (*self.bodies.items(), (POWERTRAIN, self.powertrain)):
             if name in known or name.startswith(("left_", "right_")) or name == CHASSIS:
-                raise ValueError(f"bodies.{name}: the name is taken; those of the running gear begin with a side")
+                raise ValueError(
+                    f"bodies.{name}: the name is already used; those of the running gear begin with a side"
+                )
             if body.parent not in known:
                 raise ValueError(
                     f"bodies.{name}: parent is {body.parent!r}, must stand before it; known are {', '.join(known)}"
@@ -217,7 +219,7 @@ class Vehicle(Section):
         for name, values in shocks:
             check_stations(f"shock_absorbers.{name}", values, arms.stations)
         if (self.carrier_rollers is None) != (self.roller_rims is None):
-            raise ValueError("carrier_rollers and roller_rims: must both be there, or neither of them")
+            raise ValueError("carrier_rollers and roller_rims: must be given both or neither")
         rear, front = sorted((self.sprockets.x, self.idlers.x))
         if not rear < arms.places.min() <= arms.places.max() < front:
             raise ValueError(

@@ -39,13 +39,13 @@ class _Quantity:
 
     def _plain(self, quantity):
         if not isinstance(quantity, dict) or not {"value", "unit", "source"} <= set(quantity) <= KEYS:
-            raise ValueError(f"must be written {{value: ..., unit: {self.unit}, source: ...}}, a note may follow")
+            raise ValueError(f"must be written {{value: ..., unit: {self.unit}, source: ...}}, optionally with a note")
         if quantity["unit"] != self.unit:
             raise ValueError(f"unit is {quantity['unit']!r}, must be {self.unit!r}")
         if quantity["source"] not in SOURCES:
             raise ValueError(f"source is {quantity['source']!r}, must be one of {', '.join(SOURCES)}")
         if quantity["source"] == "literature" and not quantity.get("note"):
-            raise ValueError("source is 'literature', so a note must name it")
+            raise ValueError("source is 'literature', so a note must cite it")
         return quantity["value"]
 
 

@@ -113,7 +113,7 @@ class RollersParameters(RoadWheelsParameters):
     @model_validator(mode="after")
     def _x_and_z_pair(self):
         if len(self.x) != len(self.z):
-            raise ValueError(f"x has {len(self.x)} places and z {len(self.z)}, must be as many")
+            raise ValueError(f"x has {len(self.x)} places and z {len(self.z)}, must have equal numbers")
         return self
 
 
@@ -153,7 +153,7 @@ class TeethParameters(Section):
     @model_validator(mode="after")
     def _whole_arc(self):
         if (self.arc_centre is None) != (self.arc_radius is None):
-            raise ValueError("arc_centre and arc_radius: must both be there, or neither of them")
+            raise ValueError("arc_centre and arc_radius: must be given both or neither")
         if self.arc_centre is not None and not self.arc_radius < self.arc_centre:
             raise ValueError(f"arc_radius is {self.arc_radius} m, must be less than arc_centre, {self.arc_centre} m")
         return self

@@ -2,6 +2,7 @@
 
 import rerun.blueprint as rrb
 
+from ..vehicle.parameters import CHASSIS, POWERTRAIN
 from .curves import ACCELERATION, CURRENT, FORCE, SPECTRUM
 from .vehicle_log import FOLLOW, TIMELINE, WORLD
 
@@ -9,7 +10,7 @@ _BACKGROUND = (226, 232, 238)
 
 
 def layout(has_coils, has_mounts, live=False):
-    """Return the `rerun.blueprint.Blueprint`; a live one goes along with what comes, and has no spectra."""
+    """Return the `rerun.blueprint.Blueprint`; a live one goes along with what comes."""
     eye = rrb.EyeControls3D(position=(3.6, 6.9, 2.5), look_target=(0.2, 0.0, 0.8), eye_up=(0.0, 0.0, 1.0))
     vehicle = rrb.Spatial3DView(
         origin=FOLLOW,
@@ -24,18 +25,13 @@ def layout(has_coils, has_mounts, live=False):
         curves.append(_curves(CURRENT, "coil current, A"))
     if has_mounts:
         curves.append(_curves(FORCE, "mount force upwards, kN"))
-    spectra = (
-        []
-        if live
-        else [
-            rrb.BarChartView(origin=f"{SPECTRUM}/{name}", name=f"{name}, last second, m/s²/√Hz over Hz")
-            for name in ("chassis", "powertrain")
-        ]
-    )
-    beside = [*curves, *([rrb.Horizontal(*spectra)] if spectra else [])]
+    spectra = [
+        rrb.BarChartView(origin=f"{SPECTRUM}/{name}", name=f"{name}, last second, m/s²/√Hz over Hz")
+        for name in (CHASSIS, POWERTRAIN)
+    ]
     play = {"play_state": "following"} if live else {"play_state": "playing", "loop_mode": "all"}
     return rrb.Blueprint(
-        rrb.Horizontal(vehicle, rrb.Vertical(*beside), column_shares=[1.7, 1.0]),
+        rrb.Horizontal(vehicle, rrb.Vertical(*curves, rrb.Horizontal(*spectra)), column_shares=[1.7, 1.0]),
         rrb.BlueprintPanel(state="hidden"),
         rrb.SelectionPanel(state="hidden"),
         rrb.TimePanel(state="collapsed", timeline=TIMELINE, **play),

@@ -52,7 +52,7 @@ def read_motion(recording, span, console):
     begin, end = max(span.start, first), min(span.end, last)
     if not begin < end:
         raise ValueError(
-            f"nothing of the bag lies from {span.start:g} to {span.end:g} s: it tells of {first:g} to {last:g} s"
+            f"the bag holds nothing from {span.start:g} to {span.end:g} s: it covers {first:g} to {last:g} s"
         )
     if (end - begin) * span.rate > MOST_FRAMES:
         raise ValueError(
@@ -73,7 +73,7 @@ def _driven_again(recording, vehicle, span, console):
     simulation, values = prepare_again(recording)
     mounts = simulation.mounting
     if (mounts.coils, len(mounts.mounts)) != (recording.mounting.coils, len(recording.mounting.mounts)):
-        raise BagError("the mounts that the bag tells of are not those of its vehicle")
+        raise BagError("the mounts described in the bag are not those of its vehicle")
     rates, reader = simulation.settings.rates, PoseReader(vehicle, simulation.system)
     every = max(1, round(rates.control / span.rate))
     frames, note = [], ""
@@ -92,7 +92,7 @@ def _driven_again(recording, vehicle, span, console):
             frames.append((simulation.time, reader.read(simulation.state), on_path))
             note = note or _difference(recording, simulation)
     if not frames:
-        raise ValueError(f"the bag tells too little to drive its run again from {span.start:g} s on")
+        raise ValueError(f"the bag does not hold enough to repeat its run from {span.start:g} s on")
     time, poses, on_path = zip(*frames, strict=True)
     distance, offset, x, y, heading = np.array(on_path).T
     way = way_of(distance, offset, np.stack((x, y), axis=-1), heading)
@@ -106,4 +106,4 @@ def _difference(recording, simulation):
         return ""
     if np.array_equal(recording.mounts.force[row], simulation.sample.mounts.force):
         return ""
-    return f"from t = {simulation.time / NANO:.3f} s on not the recorded bits: another machine or version"
+    return f"from t = {simulation.time / NANO:.3f} s on the samples are not those recorded: another machine or version"

@@ -33,8 +33,8 @@ def read_recorded_poses(recording, vehicle, span):
         raise BagError(f"the poses in bag {str(recording.path)!r} are not those of its vehicle: {error}") from None
     if not frames:
         raise BagError(
-            f"bag {str(recording.path)!r} holds no poses on {topics.TF} and {topics.TRACK_LINKS}, which a run that "
-            "followed the wall clock needs: record it with the simulator's view_rate"
+            f"bag {str(recording.path)!r} holds no poses on {topics.TF} and {topics.TRACK_LINKS}, which are needed "
+            "for a run that followed the wall clock: record it with the simulator's view_rate"
         )
     time, poses = zip(*frames, strict=True)
     return np.array(time), list(poses)

@@ -9,7 +9,6 @@ require("view", "rerun")
 import numpy as np  # noqa: E402
 import rerun as rr  # noqa: E402
 
-from ..numerics.units import NANO  # noqa: E402
 from ..vehicle.system import Operation, build_system  # noqa: E402
 from .curves import announce_curves, log_curves, sensor_vectors  # noqa: E402
 from .layout import layout  # noqa: E402
@@ -44,4 +43,4 @@ def write_run(stream, recording, vehicle, motion):
     if recording.road:
         log.road(strips_of(recording, vehicle, motion.way))
     announce_curves(stream, log.mounts)
-    log_curves(stream, recording, log.mounts.names, float(motion.time[0]) / NANO, float(motion.time[-1]) / NANO)
+    log_curves(stream, recording, log.mounts.names, motion.time[0], motion.time[-1])

@@ -4,7 +4,6 @@ import numpy as np
 import rerun as rr
 from scipy.spatial.transform import Rotation
 
-from ..numerics.units import NANO
 from ..scene.bodies import body_parts, shoe_parts
 from ..scene.colours import OTHER_SENSOR, SENSORS, of_load
 from ..scene.mounts import mount_places, sensor_places
@@ -99,7 +98,7 @@ class VehicleLog:
     def road_now(self, time, corners, colours):
         """Write the road around the vehicle at a time [ns]: corners (3 t, 3) [m] of triangles, with their colours."""
         triangles = np.arange(len(corners)).reshape(-1, 3)
-        self._stream.set_time(TIMELINE, duration=time / NANO)
+        self._stream.set_time(TIMELINE, duration=np.timedelta64(time, "ns"))
         normals = _normals(corners, triangles)
         drawn = rr.Mesh3D(
             vertex_positions=corners, triangle_indices=triangles, vertex_normals=normals, vertex_colors=colours
@@ -116,8 +115,8 @@ class VehicleLog:
 
 def send_columns(stream, path, time, columns):
     """Write columns of k rows at times (k,) [ns]."""
-    seconds = np.asarray(time) / NANO
-    rr.send_columns(path, [rr.TimeColumn(TIMELINE, duration=seconds)], columns, recording=stream)
+    duration = np.asarray(time).astype("timedelta64[ns]")
+    rr.send_columns(path, [rr.TimeColumn(TIMELINE, duration=duration)], columns, recording=stream)
 
 
 def mesh(parts):

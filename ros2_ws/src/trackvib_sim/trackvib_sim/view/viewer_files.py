@@ -55,7 +55,7 @@ def free_port():
 def _program():
     spec = find_spec("rerun_cli")
     if spec is None:
-        raise NoViewer("this package of rerun-sdk brings no viewer")
+        raise NoViewer("this package of rerun-sdk contains no viewer")
     return Path(spec.origin).with_name("rerun")
 
 
@@ -72,5 +72,5 @@ def _fetched(address, server):
                     f"rerun ended with exit code {server.returncode}: {words[-1] if words else ''}"
                 ) from None
             if time.monotonic() > end:
-                raise NoViewer(f"rerun does not hand over its viewer: {error}") from None
+                raise NoViewer(f"rerun does not serve its viewer: {error}") from None
         time.sleep(0.05)

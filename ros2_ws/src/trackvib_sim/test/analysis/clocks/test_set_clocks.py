@@ -22,7 +22,7 @@ def test_a_clock_that_is_set_while_recording(step, logged):
     if logged:
         assert found.duration == pytest.approx(20.0)
         way = "ahead" if step > 0.0 else "back"
-        assert says(found, f"clock was set {way} by {abs(step):g} s", "taken back")
+        assert says(found, f"clock was set {way} by {abs(step):g} s", "corrected")
 
 
 @pytest.mark.property

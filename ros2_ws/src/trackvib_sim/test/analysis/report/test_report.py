@@ -102,7 +102,7 @@ def test_report_of_sensors_alone(report):
     """A bag without mounts, answers, odometry, parameters and vehicle is reported, and says what it lacks."""
     lacking = dict.fromkeys(("mounts", "answers", "odometry", "vehicle"))
     words = _words(report(made_recording(np.arange(1, 4001))._replace(**lacking, provenance={})))
-    for absent in ("no odometry in the bag", "no mount_state in the bag", "no coil_current in the bag", "not told"):
+    for absent in ("no odometry in the bag", "no mount_state in the bag", "no coil_current in the bag", "unknown"):
         assert absent in words
     assert "Numbers" in words and "force over deflection" not in words
     assert "bag, 4 s" in words and not re.search(r"\bnan\b|unanswered", words)
@@ -133,7 +133,7 @@ def test_gaps_are_told(report):
         ({"late": "0", "state": "finished"}, "nothing lost, nothing late, every sample answered"),
         ({"late": "3", "saturated": "2"}, "Loop: 3 late, 2 saturated."),
         ({"late": "0", "state": "failed"}, "Loop: the run failed."),
-        ({}, "Loop: the bag does not tell what the simulator counted."),
+        ({}, "Loop: the bag does not hold the simulator's counters."),
     ],
 )
 def test_loop_health_stands_at_the_top(report, told, words):
@@ -182,7 +182,7 @@ def test_bags_are_compared_with_the_first(report):
     words = _words(report(one, other._replace(path=Path("runs/two/bag"), provenance=parameters)))
     assert words.count("(+100.0 %)") == 5 * 6 + 8 + 6 * 6  # quantities with totals, and lines
     assert words.count("crest factor, weighted") == 1 and "(–)" not in words
-    assert "controller law not told skyhook" in words and "simulator speed 10.0 10.0" not in words
+    assert "controller law unknown skyhook" in words and "simulator speed 10.0 10.0" not in words
     assert "In brackets the difference to one." in words
 
 

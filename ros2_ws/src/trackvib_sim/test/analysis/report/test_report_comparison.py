@@ -51,8 +51,8 @@ def test_vehicles_are_compared_item_by_item(whole, differences):
     assert differences(whole.vehicle, whole.vehicle.replace(mass, heavier, 1)) == [row]
     assert differences(whole.vehicle, whole.vehicle.replace("source: assumed", "source: published")) == []
     assert differences("a: {b: {c: 1}, d: 2}", "a: {d: 2, b: {e: [3, 4]}}") == [
-        ("vehicle", "a.b.c", "1", "not told"),
-        ("vehicle", "a.b.e", "not told", "[3, 4]"),
+        ("vehicle", "a.b.c", "1", "unknown"),
+        ("vehicle", "a.b.e", "unknown", "[3, 4]"),
     ]
 
 
@@ -60,8 +60,8 @@ def test_vehicles_are_compared_item_by_item(whole, differences):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        (None, "not told"),
-        ("", "not told"),
+        (None, "unknown"),
+        ("", "unknown"),
         ("a: [", "not a YAML file with sections"),
         ("a: 2001-99-99", "not a YAML file with sections"),
         ("nothing but words", "not a YAML file with sections"),
@@ -82,7 +82,7 @@ def test_vehicle_file_that_cannot_be_read_is_one_row(differences, text, words):
 def test_vehicle_files_bring_no_elements(differences, tmp_path):
     """Their names and values are words in a table like all else, whatever they say."""
     text = json.dumps({SCRIPT: {"value": 1, "unit": SCRIPT}})
-    assert differences("a: 1", text)[1:] == [("vehicle", SCRIPT, "not told", f"1 {SCRIPT}")]
+    assert differences("a: 1", text)[1:] == [("vehicle", SCRIPT, "unknown", f"1 {SCRIPT}")]
     report_data_list = [hostile_report_data("one"), hostile_report_data("other")._replace(vehicle=text)]
     write_report(report_data_list, tmp_path / "report.html")
     page = (tmp_path / "report.html").read_text(encoding="utf-8")

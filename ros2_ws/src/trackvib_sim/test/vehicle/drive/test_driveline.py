@@ -82,7 +82,7 @@ def test_gears_are_shifted_up_and_down(driveline):
     [
         ("ratios: {value: [17.0, 10.0", "ratios: {value: [17.0, 18.0", "each must be below the one before"),
         ("shift_down: {value: 1000.0", "shift_down: {value: 1900.0", "shift_down is 1900 r/min, must be below"),
-        ("curve_torque: {value: [2800.0, ", "curve_torque: {value: [", "must be as many and at least 2"),
+        ("curve_torque: {value: [2800.0, ", "curve_torque: {value: [", "must have equal numbers, at least 2"),
         (
             "curve_speed: {value: [450.0, 900.0",
             "curve_speed: {value: [950.0, 900.0",

@@ -161,7 +161,7 @@ def test_a_command_holds_from_the_next_period_on(driven, drive, level):
         (5.0, np.inf, "yaw rate is inf"),
         (0.0, 0.2, "turning on the spot is not modelled"),
         (1.0, 0.2, "curvature is 0.2 1/m"),
-        (-5.0, 0.1, "curvature is -0.02 1/m at -5 m/s, backwards only 0 is accepted"),
+        (-5.0, 0.1, "curvature is -0.02 1/m at -5 m/s, accepted in reverse is 0"),
     ],
 )
 def test_a_command_that_cannot_be_driven_is_refused(driven, speed, yaw_rate, words):

@@ -74,7 +74,7 @@ def test_a_file_becomes_a_schedule():
         ("points: [{at: 1e9, speed: 1}]", "at"),
         ("points: [{at: 0, speed: 26}]", "speed is 26.0 m/s, accepted is -25 to 25 m/s"),
         ("points: [{at: 0, speed: 5, curvature: 0.2}]", "curvature is 0.2 1/m, accepted is -0.1 to 0.1 1/m"),
-        ("points: [{at: 0, speed: -5, curvature: 0.05}]", "backwards only 0 is accepted"),
+        ("points: [{at: 0, speed: -5, curvature: 0.05}]", "accepted in reverse is 0"),
         ("points: [{at: 0, speed: 1}, {at: 0, speed: 2}]", "point 2: at is 0, must be above 0"),
         ("points: [{at: 2, speed: 1}, {at: 1, speed: 2}]", "point 2: at is 1, must be above 2"),
         ("points: [{at: 0, speed: 1, engine_speed: 900}, {at: 1, speed: 2}]", "1 of 2 points have an engine_speed"),
@@ -129,7 +129,7 @@ def test_a_csv_file_becomes_the_same_schedule(tmp_path, text, by_distance, at, s
         ("time_s,speed_mps\n0,nan\n", "speed"),
         ("time_s,speed_mps\n0,1e999\n", "speed"),
         ("time_s,speed_mps\n1,5\n0,5\n", "point 2: at is 0, must be above 1"),
-        ("time_s,speed_mps,speed_kmh\n0,5,5\n", "two columns are called speed"),
+        ("time_s,speed_mps,speed_kmh\n0,5,5\n", "two columns are named speed"),
     ],
 )
 def test_a_bad_csv_file_is_refused(tmp_path, text, words):

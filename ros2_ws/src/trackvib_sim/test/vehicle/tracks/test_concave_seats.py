@@ -106,7 +106,7 @@ def test_half_an_arc_is_refused(m113):
     items = {name: {"value": value, "unit": _unit(name), "source": "assumed"}
              for name, value in m113.sprocket_teeth if value is not None}  # fmt: skip
     assert TeethParameters(**items)
-    with pytest.raises(ValueError, match="arc_centre and arc_radius: must both be there"):
+    with pytest.raises(ValueError, match="arc_centre and arc_radius: must be given both or neither"):
         TeethParameters(**{name: item for name, item in items.items() if name != "arc_radius"})
     with pytest.raises(ValueError, match="arc_radius is 0.3 m, must be less than arc_centre"):
         TeethParameters(**items | {"arc_radius": items["arc_radius"] | {"value": 0.3}})

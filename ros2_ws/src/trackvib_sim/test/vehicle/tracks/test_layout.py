@@ -148,7 +148,7 @@ def test_links_that_do_not_fit_are_refused(vehicle, changed, links, long):
 @pytest.mark.parametrize(
     ("section", "values", "words"),
     [
-        ("hull", {"mass": 1e12}, ["tyres.radial_stiffness is", "give by", "road_wheels.radius, "]),
+        ("hull", {"mass": 1e12}, ["tyres.radial_stiffness is", "deflect by", "road_wheels.radius, "]),
         ("tyres", {"radial_stiffness": 1e-300}, ["tyres.radial_stiffness is 1e-300 N/m", "road_wheels.radius, "]),
     ],
 )

@@ -80,7 +80,7 @@ def mend(stamp, logged, force, name):
     settings = find_settings(stamp, logged, rough)
     told, stamp = stamp, without_settings(stamp, settings)
     if logged is not None and np.ptp(stamp) < LEAST_SPAN * np.ptp(logged):
-        raise NoClock(f"stamps of {name} do not go on: {in_steps(told)}")
+        raise NoClock(f"stamps of {name} do not increase: {in_steps(told)}")
     disordered = np.zeros(len(stamp), bool)
     mended, kept = np.empty(len(stamp), np.int64), np.ones(len(stamp), bool)
     parts, small = [], []
@@ -100,7 +100,7 @@ def mend(stamp, logged, force, name):
         parts.append(found)
         small += [(step / NANO, logged is not None) for step in found.settings]
     if not parts:
-        raise NoClock(f"{name} has no {LEAST_SAMPLES} samples that follow each other: {in_steps(stamp)}")
+        raise NoClock(f"{name} has no {LEAST_SAMPLES} consecutive samples: {in_steps(stamp)}")
     rest = np.concatenate([part.rest for part in parts])
     untouched = len(told) == count and not settings and not small and not disordered.any() and kept.all()
     if untouched and np.abs(rest).max() < EVEN * rough and (order == np.arange(count)).all():
@@ -147,7 +147,7 @@ def _mend_part(stamp, logged, name):
     if witnessed:
         found = by_log
     if found is None:
-        raise NoClock(f"stamps of {name} do not go on evenly: {in_steps(stamp)}")
+        raise NoClock(f"stamps of {name} are not evenly spaced: {in_steps(stamp)}")
     index, grain = found.index, float(np.gcd.reduce(np.diff(stamp)))
     time, index, settings = _without_small_settings(time, index, found.period, grain, logged is not None)
     line = line_through(time, index, found.period, NANO, grain)
@@ -199,7 +199,7 @@ def _rough_period(stamp, logged, name):
             period = float(np.median(times[many:] - times[:-many])) / many
             if period > 0.0:
                 return period
-    raise NoClock(f"stamps of {name} do not go on: {in_steps(stamp)}")
+    raise NoClock(f"stamps of {name} do not increase: {in_steps(stamp)}")
 
 
 def _tells_nothing(stamp, logged):

@@ -14,17 +14,17 @@ def clock_notes(end, clock):
             f"{1e3 * clock.correction:.3g} ms at most off it, {clock.correction / period:.2g} periods"
         )
     if clock.counted_by_log and notes:
-        notes.append(f"{end}: samples are counted by the times at which they were recorded, which are steadier")
+        notes.append(f"{end}: the time base is the times of recording, which are steadier")
     for count, text in (
         (clock.lost, "samples are missing between others"),
-        (clock.repeated, "stamps are those of the sample before"),
+        (clock.repeated, "stamps repeat that of the sample before"),
         (clock.disordered, "samples were put in the order of their stamps"),
-        (clock.copies, "messages are in the bag twice, one of each left out"),
-        (clock.left_out, "samples stand apart or next to lost ones, left out"),
+        (clock.copies, "messages are in the bag twice, duplicates left out"),
+        (clock.left_out, "samples are isolated or next to lost ones, left out"),
     ):
         if count:
             notes.append(f"{end}: {count} {text}")
     for step, witnessed in clock.settings:
-        what = "taken back, for the recorder's clock went on" if witnessed else "split there"
+        what = "corrected, since the recorder's clock did not jump" if witnessed else "split there"
         notes.append(f"{end}: the clock was set {'ahead' if step > 0 else 'back'} by {abs(step):.6g} s: {what}")
     return notes

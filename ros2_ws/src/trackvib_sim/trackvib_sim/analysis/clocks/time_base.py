@@ -39,7 +39,7 @@ def on_one_time_base(recording):
         end = _ENDS.get(name, topics.imu_topic(name))
         if recording.origins and name not in recording.origins:
             found[name] = inertial
-            notes.append(f"no {name} in the recording: its numbers, and those that need both sensors, cannot be had")
+            notes.append(f"no {name} in the recording: its numbers, and those that need both sensors, are missing")
             continue
         found[name], clock, words = _mended(inertial, end)
         notes += words
@@ -76,12 +76,12 @@ def _mended(inertial, end):
             found, sound = inertial.at(mended.order)._replace(stamp=mended.stamp), sound[mended.order]
     notes = [] if clock is None else clock_notes(end, clock)
     if not sound.any():
-        why = "its covariance says so" if denied else "no sample is a number"
+        why = "its covariance says so" if denied else "no sample is finite"
         found = found._replace(specific_force=np.broadcast_to(np.nan, found.specific_force.shape))
         notes.append(f"{end}: acceleration was not measured, {why}")
     elif not sound.all():
         notes.append(
-            f"{end}: samples that are no numbers: {len(sound) - sound.sum()}; each ends a stretch as a gap does"
+            f"{end}: samples that are not finite: {len(sound) - sound.sum()}; each splits the recording like a gap"
         )
         found = found.at(sound)
     found, words = at_even_instants(found, end)
@@ -96,7 +96,7 @@ def _nothing_beside(inertial):
 def _way_out(inertial):
     """Offer the times at which messages were recorded, where these go on."""
     goes_on = inertial.logged is not None and period_of(inertial.logged) > 0.0
-    return "; `--time log` takes the times at which messages were recorded" if goes_on else ""
+    return "; `--time log` uses the times at which messages were recorded" if goes_on else ""
 
 
 def _by_one_clock(chassis, powertrain):

@@ -75,7 +75,9 @@ def compare(recordings, analyses, align=AUTO, interval=50.0, speed_band=SPEED_BA
     ]
     aligned_by, strata, weights = _strata(windows, align, interval, speed_band)
     if aligned_by == NOT and align == AUTO:
-        notes.append("not both drives tell speeds that overlap: statistics of all that counts are compared")
+        notes.append(
+            "the speeds of the drives do not overlap or are unknown: statistics of all that counts are compared"
+        )
     results = []
     for found, stratum in zip(windows, strata, strict=True):
         kept = stratum >= 0

@@ -8,7 +8,7 @@ from ...bags.provenance import parameters_with
 from ...road.iso8608 import CLASSES
 from ...road_sources.road_file import road_in_words
 
-UNKNOWN = "not told"
+UNKNOWN = "unknown"
 
 
 def facts(report_data):

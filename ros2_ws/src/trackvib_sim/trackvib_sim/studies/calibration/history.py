@@ -70,7 +70,7 @@ class History:
         text = path.read_text(encoding="utf-8")
         if not text.startswith(head):
             raise HistoryError(
-                f"{path} belongs to another vehicle file, plan, table or version of the program; name another --out"
+                f"{path} belongs to another vehicle file, plan, table or version of the program; choose another --out"
             )
         whole = text[: text.rfind("\n") + 1]
         if whole != text:  # the last line was cut short by a crash

@@ -103,7 +103,7 @@ class Plan(_Strict):
         items = [parameter.item for parameter in self.parameters]
         for item in items:
             if items.count(item) > 1:
-                raise ValueError(f"parameters: {item} stands there {items.count(item)} times, must be once")
+                raise ValueError(f"parameters: {item} is given {items.count(item)} times, must be given once")
         return self
 
     @property

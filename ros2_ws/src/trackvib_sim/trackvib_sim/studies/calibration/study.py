@@ -85,7 +85,7 @@ def run_calibrate(plan_file, vehicle_file, without, generations, scheduler, out)
     )
     pictures = "convergence.png, frontier.png, sensitivity.png"
     console.print(
-        f"left in {folder}: vehicle.yaml, values.yaml, calibration.md, {pictures}, sensitivity.csv, history.csv",
+        f"written to {folder}: vehicle.yaml, values.yaml, calibration.md, {pictures}, sensitivity.csv, history.csv",
         soft_wrap=True,
     )
 

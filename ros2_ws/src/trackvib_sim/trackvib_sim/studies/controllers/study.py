@@ -90,4 +90,4 @@ def _print(console, rows, folder):
     for row in rows:
         if row.failures:
             console.print(f"{row.scenario}, {row.name}: {'; '.join(row.failures)}", soft_wrap=True)
-    console.print(f"left in {folder}: controllers.csv, controllers.md, controllers.png, cases/", soft_wrap=True)
+    console.print(f"written to {folder}: controllers.csv, controllers.md, controllers.png, cases/", soft_wrap=True)

@@ -32,7 +32,7 @@ def run_m113(phases, scheduler, out):
     Parameters
     ----------
     phases : int
-        Number of runs a case, each with its own phase between the two tracks; variants have half of them.
+        Number of runs a case, each with its own phase between the two tracks; variants use half of them.
     scheduler, out
         As `table1.run_table1` takes them.
 
@@ -99,7 +99,7 @@ def _print(console, rows, factors, loads, failed, folder):
     console.print(changed)
     for line in failed:
         console.print(line, soft_wrap=True)
-    console.print(f"left in {folder}: m113.csv, m113.md, m113.png, cases/", soft_wrap=True)
+    console.print(f"written to {folder}: m113.csv, m113.md, m113.png, cases/", soft_wrap=True)
 
 
 def _print_cases(console, title, heads, cells):

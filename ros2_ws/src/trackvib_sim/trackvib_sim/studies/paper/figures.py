@@ -56,7 +56,7 @@ def run_figures(vehicle, scheduler, out):
             raise ValueError(f"{case_in_words(SHOWN)}, the case that is drawn: {error}") from None
     names = draw(folder, vehicle, found, comparison)
     console.print(f"accelerations of both solvers differ by {comparison.difference:.1e} of the largest at most")
-    console.print(f"left in {folder}: {', '.join(names)}", soft_wrap=True)
+    console.print(f"written to {folder}: {', '.join(names)}", soft_wrap=True)
 
 
 def draw(folder, vehicle, found, comparison):

@@ -91,7 +91,7 @@ def _print(console, rows, paper, predictions, folder):
             console.print(f"class {row.road_class}, {row.speed:g} m/s: {row.status}", soft_wrap=True)
     if given(rows, paper).size:
         console.print(_predictions(predictions))
-    console.print(f"left in {folder}: table1.csv, table1.md, table1.png, cases/, left_out/", soft_wrap=True)
+    console.print(f"written to {folder}: table1.csv, table1.md, table1.png, cases/, left_out/", soft_wrap=True)
 
 
 def _predictions(predictions):

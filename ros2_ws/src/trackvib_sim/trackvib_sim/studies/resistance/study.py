@@ -50,7 +50,7 @@ def run_resistance(speeds, vehicle_file, scheduler, out):
     for case, result in found.items():
         if result.status != GOOD:
             console.print(f"{case.speed:g} m/s: {result.status}", soft_wrap=True)
-    console.print(f"left in {folder}: resistance.csv, resistance.png, cases/", soft_wrap=True)
+    console.print(f"written to {folder}: resistance.csv, resistance.png, cases/", soft_wrap=True)
 
 
 def _table(found, mass, title):

@@ -20,7 +20,7 @@ def check_curvature(speed, curvature):
             "turns are pivots, which are not modelled"
         )
     if curvature and speed < 0.0:
-        raise ValueError(f"curvature is {curvature:g} 1/m at {speed:g} m/s, backwards only 0 is accepted")
+        raise ValueError(f"curvature is {curvature:g} 1/m at {speed:g} m/s, accepted in reverse is 0")
 
 
 def curvature_of(speed, yaw_rate):

@@ -50,7 +50,7 @@ def build_driveline(vehicle, gears):
     if not gears:
         return Driveline(np.zeros(0), 0.0, 0.0, 0.0, np.zeros(1), np.zeros(1), 1.0, 1.0, 0.0, 0.0, np.zeros(m))
     if d is None:
-        raise ValueError(f"gears are asked for, but vehicle {vehicle.name!r} has no section driveline")
+        raise ValueError(f"gears are requested, but vehicle {vehicle.name!r} has no section driveline")
     return Driveline(
         ratio=np.array(d.ratios),
         shift_up=d.shift_up * RPM,

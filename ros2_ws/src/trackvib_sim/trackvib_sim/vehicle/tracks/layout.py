@@ -133,7 +133,8 @@ def _taut_line(vehicle, side, travel):
     v, wheels, given = vehicle, vehicle.road_wheels, sink(vehicle)
     if not given < wheels.radius:
         raise TrackDoesNotFit(
-            f"tyres.radial_stiffness is {v.tyres.radial_stiffness:g} N/m, so that the road wheels give by {given:g} m "
+            f"tyres.radial_stiffness is {v.tyres.radial_stiffness:g} N/m, so that the road wheels deflect by "
+            f"{given:g} m "
             f"under the vehicle's weight, must be less than road_wheels.radius, {wheels.radius:g} m"
         )
     rollers, wheel_x = v.carrier_rollers, v.swing_arms.places[side]
