@@ -53,7 +53,7 @@ class ImuMessage:
         message = Imu()
         message.header.frame_id = frame
         message.orientation_covariance[0] = -1.0
-        self._packed = PackedMessage(message, {"linear_acceleration": 3, "angular_velocity": 3})
+        self._packed = PackedMessage(message, {"linear_acceleration": (3,), "angular_velocity": (3,)})
 
     def fill(self, stamp, specific_force, rate):
         """Return the message's bytes; vectors (3,) in body axes, m/s^2 and rad/s."""
@@ -74,7 +74,7 @@ class MountMessage:
         message.header.frame_id = topics.HULL_FRAME
         for name, values in sample._asdict().items():
             setattr(message, name, [0.0 if values.ndim == 1 else Vector3() for _ in values])
-        self._packed = PackedMessage(message, {name: values.size for name, values in sample._asdict().items()})
+        self._packed = PackedMessage(message, {name: values.shape for name, values in sample._asdict().items()})
 
     def fill(self, stamp, sample):
         """Return the message's bytes."""
