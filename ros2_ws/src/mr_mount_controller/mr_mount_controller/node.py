@@ -22,6 +22,7 @@ from .node_base.parameters import Parameter
 from .node_base.patience import Patience
 from .node_base.plain_text import plain_line
 from .node_base.qos import LATCHED_QOS, LOOP_QOS, LOOP_WRITER_QOS
+from .node_base.scheduling import SCHEDULING, schedule
 from .node_base.topics import CHASSIS_IMU, COIL_CURRENT, LAW_PARAMETERS, MOUNT_DESCRIPTION, POWERTRAIN_IMU
 
 PARAMETERS = (
@@ -29,6 +30,7 @@ PARAMETERS = (
     Parameter("sample_rate", 1000.0, "Rate of the Imu messages.", "Hz", 10.0, 10000.0),
     Parameter("coils", 0, f"Number of coils; 0: as {MOUNT_DESCRIPTION} tells, for which it waits.", "", 0, MOST_COILS),
     Parameter("wait_for_recorder", False, "Answer nothing before a recorder listens to the currents, too."),
+    *SCHEDULING,
 )
 _PATIENCE = 10.0  # s of wall time for those who shall hear the answers
 _GREATEST = 1e6  # m/s^2 or rad/s; no sensor measures more
@@ -92,6 +94,7 @@ class ControllerNode(LoopNode):
 
     def run(self):
         """Say what runs, wait for a simulator or vehicle, answer until told to stop."""
+        schedule(self.settings)
         described_too = "" if self.settings["coils"] else f" and {MOUNT_DESCRIPTION}"
         self.get_logger().info(f"law '{self.settings['law']}', waiting for accelerations{described_too}")
         super().run()

@@ -1,5 +1,6 @@
 """What every node of trackvib does alike: declared parameters, a bounded spin, a clean end on SIGINT and SIGTERM."""
 
+import gc
 import signal
 import sys
 from pathlib import Path
@@ -234,6 +235,7 @@ def run_node(make_node, args=None, companions=()):
             nodes[-1].refuse_unknown_parameters(arguments)
             nodes[-1].prepare(lambda timeout: executor.spin_once(timeout_sec=timeout), lambda: bool(stop))
             executor.add_node(nodes[-1])
+        gc.freeze()  # what the start has made stays; looking through it again would hold up a period
         try:
             nodes[-1].run()
         finally:

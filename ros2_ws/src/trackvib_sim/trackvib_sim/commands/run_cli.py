@@ -14,6 +14,8 @@ from .option_types import FiniteRange, law_option
 @loop_option("law_parameters", metavar="NAME=VALUE,...")
 @loop_option("control_rate", type=click.IntRange(10, 10_000))
 @loop_option("measure_rate", type=click.IntRange(0, 1000), metavar="HZ")
+@loop_option("realtime_priority", type=click.IntRange(0, 99))
+@loop_option("core", type=click.IntRange(-1, 1023))
 @click.option(
     "--params-file",
     "files",
