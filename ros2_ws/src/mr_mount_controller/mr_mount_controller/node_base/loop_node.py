@@ -13,6 +13,7 @@ from rclpy.experimental import EventsExecutor
 from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
 from rclpy.parameter import Parameter as RosParameter
+from rclpy.task import Future
 from rclpy.signals import SignalHandlerOptions
 
 from .descriptors import descriptor_of
@@ -137,7 +138,8 @@ class LoopNode(Node):
     def run(self):
         """Do the node's work until it is done or `self.stopping()`; by default answer callbacks."""
         while not self.stopping():
-            self.spin_once(_TICK)
+            # all that comes in one go; a call for each message costs as much as the message
+            self.executor.spin_until_future_complete(Future(), timeout_sec=_TICK)
 
     def close(self):
         """Finish what must not be left half done; called once, whatever ended the node."""

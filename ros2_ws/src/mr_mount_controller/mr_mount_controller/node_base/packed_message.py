@@ -15,14 +15,14 @@ from .definitions import installed_definition
 
 
 class PackedMessage:
-    """A message with stamps and some fields of a number of floats that does not change.
+    """A message with stamps and some fields of numbers, as many of them each time.
 
     Parameters
     ----------
     message : ROS message
         With everything set that does not change, sequences with as many elements as they shall have.
     fields : dict
-        Shape of each changing field of float64, by name: vectors (x, y, z), arrays of floats or arrays of vectors.
+        Shape of each changing field, by name: numbers (), vectors (x, y, z), arrays of numbers or of vectors.
     stamps : tuple of str
         Names of the times that say when.
     """
@@ -37,7 +37,7 @@ class PackedMessage:
         self._write_stamp = Struct(f"{byte_order(self._bytes)}iI").pack_into
         self._stamps = [layout.numbers.fields[f"{stamp}.sec"][1] for stamp in stamps]
         record = np.frombuffer(self._bytes, layout.numbers)
-        self._places = {name: record[name][0] for name in fields}  # found once, written every period
+        self._places = {name: record[name] for name in fields}  # found once, written every period
 
     def fill(self, stamp, **values):
         """Return the bytes to publish, with a stamp [ns] and the values of all changing fields."""
@@ -45,7 +45,7 @@ class PackedMessage:
         for place in self._stamps:
             self._write_stamp(self._bytes, place, seconds, nanoseconds)
         for name, value in values.items():
-            self._places[name][...] = value
+            self._places[name][0] = value
         return bytes(self._bytes)
 
 
