@@ -41,6 +41,7 @@ class SimulatorNode(LoopNode):
         super().__init__()
         s = self.settings
         self._waits_for_answers = s["pace"] == "lockstep"
+        self._second_clock = SecondClock(self, self._time)  # it listens while the simulation is prepared
         self._simulation, usable, vehicle_text, drive_text = prepare(s)
         self._usable = usable
         self._begin_counts()
@@ -54,7 +55,6 @@ class SimulatorNode(LoopNode):
         self._control = RunControl(self, self._time)
         standard = (self, self._control, self._simulation, vehicle_text)
         self._standard = _STANDARD.StandardServices(*standard) if _STANDARD else None
-        self._second_clock = SecondClock(self, self._time)
         period = self._simulation.settings.rates.period
         self._recorder = RecorderLag(self, period, self._time, lambda: self._heard) if s["wait_for_recorder"] else None
 
