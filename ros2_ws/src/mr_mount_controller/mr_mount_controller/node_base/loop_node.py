@@ -13,8 +13,8 @@ from rclpy.experimental import EventsExecutor
 from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
 from rclpy.parameter import Parameter as RosParameter
-from rclpy.task import Future
 from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
 
 from .descriptors import descriptor_of
 from .help_text import help_text, wants_help
