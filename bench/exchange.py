@@ -150,7 +150,7 @@ def main(rounds):
         parts = [float(best[f"{part}_us_per_period"]) for part in ("physics", "publishing", "answer", "holding")]
         least = parts[0] + (1e6 * law() if "one process" in name else exchange)
         table.add_row(name, f"{period:.0f}", *(f"{part:.0f}" for part in parts), f"{period / least:.2f}")
-    Console().print(table)
+    Console(width=110).print(table)
 
 
 if __name__ == "__main__":
