@@ -2,7 +2,6 @@
 
 import sys
 import time
-from array import array
 from statistics import mean
 from typing import NamedTuple
 
@@ -18,11 +17,12 @@ from .mounting import MOST_COILS, described, undescribed
 from .node_base.cdr import NANO
 from .node_base.listener import Refused
 from .node_base.loop_node import LoopNode, NodeError, run_node
-from .node_base.packed_message import MessageReader
+from .node_base.packed_message import MessageReader, PackedMessage
 from .node_base.parameters import Parameter
 from .node_base.patience import Patience
 from .node_base.plain_text import plain_line
 from .node_base.qos import LATCHED_QOS, LOOP_QOS, LOOP_WRITER_QOS
+from .node_base.scheduling import SCHEDULING, schedule
 from .node_base.topics import CHASSIS_IMU, COIL_CURRENT, LAW_PARAMETERS, MOUNT_DESCRIPTION, POWERTRAIN_IMU
 
 PARAMETERS = (
@@ -32,6 +32,7 @@ PARAMETERS = (
         "coils", 0, f"Number of coils; 0: wait for {MOUNT_DESCRIPTION} and take it from there.", "", 0, MOST_COILS
     ),
     Parameter("wait_for_recorder", False, "Send no answer before a recorder has subscribed to the currents."),
+    *SCHEDULING,
 )
 _PATIENCE = 10.0  # s of wall time for those who shall hear the answers
 _GREATEST = 1e6  # m/s^2 or rad/s; no sensor measures more
@@ -72,8 +73,8 @@ class ControllerNode(LoopNode):
         self._sample = None  # the sample answered last
         self._steps = self._gaps = 0  # between samples, and those among them that were not about one period
         self._first = []  # steps, ns
-        self._answer = CoilCurrent()
-        self._stamp = self._answer.header.stamp = self._answer.sample_stamp
+        self._answer = None  # as it is sent, once the number of coils is known
+        self._sent = b""  # the answer to `_sample`
         self._mounting = None  # not known yet
         self._missed = False  # whether somebody was told so
         self._currents = self.create_publisher(CoilCurrent, COIL_CURRENT, LOOP_WRITER_QOS)
@@ -95,6 +96,7 @@ class ControllerNode(LoopNode):
 
     def run(self):
         """Say what runs, wait for a simulator or vehicle, answer until told to stop."""
+        schedule(self.settings)
         described_too = "" if self.settings["coils"] else f" and {MOUNT_DESCRIPTION}"
         self.get_logger().info(f"law '{self.settings['law']}', waiting for accelerations{described_too}")
         super().run()
@@ -117,6 +119,8 @@ class ControllerNode(LoopNode):
     def _begin_on(self, mounting):
         self._mounting, self._last, self._sample = mounting, None, None
         self._law.run_on(mounting)
+        answer = CoilCurrent(current=[0.0] * mounting.coils)
+        self._answer = PackedMessage(answer, {"current": (mounting.coils,)}, ("header.stamp", "sample_stamp"))
         self.get_logger().info(f"coils: {', '.join(mounting.names[: mounting.coils]) or 'none'}")
 
     def _change_law(self, values):
@@ -154,7 +158,7 @@ class ControllerNode(LoopNode):
         if sample == self._sample:
             # Sent twice, or the first of a new run after the first of the old one. The law has had it, and nothing
             # after it, so the answer is the same.
-            self._currents.publish(self._answer)
+            self._currents.publish(self._sent)
             return
         if self._last is None:
             self._wait_for_listeners()
@@ -169,9 +173,8 @@ class ControllerNode(LoopNode):
             currents = answer(self._law, sample)
         except LawError as error:
             raise NodeError(str(error)) from None
-        self._stamp.sec, self._stamp.nanosec = divmod(stamp, NANO)
-        self._answer.current = array("d", currents.tobytes())
-        self._currents.publish(self._answer)
+        self._sent = self._answer.fill(stamp, current=currents)
+        self._currents.publish(self._sent)
 
     def _miss_description(self):
         if not self._missed:

@@ -1,5 +1,7 @@
 """The command line: `trackvib VERB`."""
 
+import atexit
+import gc
 import signal
 import sys
 from contextlib import contextmanager
@@ -74,6 +76,10 @@ def main():
     # background of a script would otherwise ignore Ctrl-C.
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, lambda *_: _interrupt())
+    # What libraries make when they are loaded stays. To look through it for garbage time and again, and once more at
+    # the end, takes a quarter of a short verb.
+    gc.set_threshold(100_000)
+    atexit.register(gc.freeze)
 
 
 def _interrupt():

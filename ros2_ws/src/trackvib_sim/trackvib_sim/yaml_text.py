@@ -73,6 +73,7 @@ def _bounded(text, name, read):
     if len(text) > LARGEST:
         raise YamlTextError(readable(f"{name}: has {len(text)} characters, accepted are {LARGEST}"))
     try:
+        _check_events(text)
         return read()
     # all but the first from tagged values that PyYAML does not check: impossible dates, `!!bool x`, `!!int ''`
     except (yaml.YAMLError, ValueError, LookupError, AttributeError, OverflowError, TypeError) as error:
@@ -94,37 +95,44 @@ def _sentence(name, error, kinds):
     return f"{name}: {item or 'the whole file'} is {value}: {reason}"
 
 
-class _Loader(yaml.SafeLoader):
-    """PyYAML's safe one, but without aliases, depths, long numbers and items that stand twice."""
+def _check_events(text):
+    """Raise `yaml.YAMLError` for aliases and depth, before anything is built from the text."""
+    depth = 0
+    for event in yaml.parse(text, yaml.CSafeLoader):
+        if isinstance(event, yaml.AliasEvent):
+            raise yaml.YAMLError(f"alias *{event.anchor} is not accepted, write the value out")
+        if isinstance(event, yaml.CollectionStartEvent):
+            depth += 1
+            if depth > DEEPEST:
+                raise yaml.YAMLError(f"nested too deeply, accepted are {DEEPEST} levels")
+        elif isinstance(event, yaml.CollectionEndEvent):
+            depth -= 1
 
-    def __init__(self, stream):
-        super().__init__(stream)
-        self._depth = 0
 
-    def compose_node(self, parent, index):
-        if self.check_event(yaml.AliasEvent):
-            raise yaml.YAMLError(f"alias *{self.peek_event().anchor} is not accepted, write the value out")
-        if self._depth == DEEPEST:
-            raise yaml.YAMLError(f"nested too deeply, accepted are {DEEPEST} levels")
-        self._depth += 1
-        node = super().compose_node(parent, index)
-        self._depth -= 1
-        return node
-
-    def compose_mapping_node(self, anchor):
-        node = super().compose_mapping_node(anchor)
+def _check_node(node):
+    """Raise `yaml.YAMLError` for items that stand twice and long numbers, here and below."""
+    if isinstance(node, yaml.MappingNode):
         before = {}
-        for key, _ in node.value:
+        for key, value in node.value:
             first = before.setdefault((key.tag, str(key.value)), key)
             if first is not key:
                 lines = f"{first.start_mark.line + 1} and {key.start_mark.line + 1}"
                 raise yaml.YAMLError(f"{shortened(str(key.value))} is given twice, in lines {lines}")
-        return node
+            _check_node(key)
+            _check_node(value)
+    elif isinstance(node, yaml.SequenceNode):
+        for each in node.value:
+            _check_node(each)
+    elif node is not None and node.tag == "tag:yaml.org,2002:int" and len(node.value) > LONGEST_NUMBER:
+        raise yaml.YAMLError(f"a number of {len(node.value)} characters, accepted are {LONGEST_NUMBER}")
 
-    def compose_scalar_node(self, anchor):
-        node = super().compose_scalar_node(anchor)
-        if node.tag == "tag:yaml.org,2002:int" and len(node.value) > LONGEST_NUMBER:
-            raise yaml.YAMLError(f"a number of {len(node.value)} characters, accepted are {LONGEST_NUMBER}")
+
+class _Loader(yaml.CSafeLoader):
+    """PyYAML's safe one, but without long numbers and items that stand twice."""
+
+    def get_single_node(self):
+        node = super().get_single_node()
+        _check_node(node)
         return node
 
 

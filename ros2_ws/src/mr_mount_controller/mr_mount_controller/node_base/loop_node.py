@@ -1,5 +1,6 @@
 """What every node of trackvib does alike: declared parameters, a bounded spin, a clean end on SIGINT and SIGTERM."""
 
+import gc
 import signal
 import sys
 from pathlib import Path
@@ -13,6 +14,7 @@ from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
 from rclpy.parameter import Parameter as RosParameter
 from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
 
 from .descriptors import descriptor_of
 from .help_text import help_text, wants_help
@@ -138,7 +140,8 @@ class LoopNode(Node):
     def run(self):
         """Do the node's work until it is done or `self.stopping()`; by default answer callbacks."""
         while not self.stopping():
-            self.spin_once(_TICK)
+            # all that comes in one go; a call for each message costs as much as the message
+            self.executor.spin_until_future_complete(Future(), timeout_sec=_TICK)
 
     def close(self):
         """Finish what must not be left half done; called once, whatever ended the node."""
@@ -238,6 +241,7 @@ def run_node(make_node, args=None, companions=()):
             executor.add_node(nodes[-1])
         for words in without_effect(arguments, [node.get_fully_qualified_name() for node in nodes]):
             nodes[-1].get_logger().warning(plain_line(words))
+        gc.freeze()  # what the start has made stays; looking through it again would hold up a period
         try:
             nodes[-1].run()
         finally:

@@ -15,31 +15,37 @@ from .definitions import installed_definition
 
 
 class PackedMessage:
-    """A message with a header and some fields of a number of floats that does not change.
+    """A message with stamps and some fields of numbers, as many of them each time.
 
     Parameters
     ----------
     message : ROS message
         With everything set that does not change, sequences with as many elements as they shall have.
     fields : dict
-        How many float64 each changing field has, by name: vectors (x, y, z), arrays of floats or arrays of vectors.
+        Shape of each changing field, by name: numbers (), vectors (x, y, z), arrays of numbers or of vectors.
+    stamps : tuple of str
+        Names of the times that say when.
     """
 
-    def __init__(self, message, fields):
+    def __init__(self, message, fields, stamps=("header.stamp",)):
         self._bytes = bytearray(serialize_message(message))
-        wanted = _stamp("header.stamp") | {name: (count,) for name, count in fields.items()}
-        layout = find_layout(installed_definition(type(message)), self._bytes, wanted)
+        wanted = {part: shape for stamp in stamps for part, shape in _stamp(stamp).items()}
+        layout = find_layout(installed_definition(type(message)), self._bytes, wanted | fields)
         # the serialiser leaves what lies between the fields as it finds it; equal runs need equal bytes
         for gap in layout.padding:
             self._bytes[gap] = bytes(gap.stop - gap.start)
-        record = np.frombuffer(self._bytes, layout.numbers)[0]
-        self._record, (self._seconds, self._nanoseconds, *_) = record, wanted
+        self._write_stamp = Struct(f"{byte_order(self._bytes)}iI").pack_into
+        self._stamps = [layout.numbers.fields[f"{stamp}.sec"][1] for stamp in stamps]
+        record = np.frombuffer(self._bytes, layout.numbers)
+        self._places = {name: record[name] for name in fields}  # found once, written every period
 
     def fill(self, stamp, **values):
         """Return the bytes to publish, with a stamp [ns] and the values of all changing fields."""
-        self._record[self._seconds], self._record[self._nanoseconds] = divmod(stamp, NANO)
+        seconds, nanoseconds = divmod(stamp, NANO)
+        for place in self._stamps:
+            self._write_stamp(self._bytes, place, seconds, nanoseconds)
         for name, value in values.items():
-            self._record[name] = np.ravel(value)
+            self._places[name][0] = value
         return bytes(self._bytes)
 
 

@@ -1,5 +1,7 @@
 """The command line's run of the closed loop: `trackvib run`."""
 
+import sys
+
 import click
 
 from .driving_options import driving_options, loop_option
@@ -14,6 +16,8 @@ from .option_types import FiniteRange, law_option
 @loop_option("law_parameters", metavar="NAME=VALUE,...")
 @loop_option("control_rate", type=click.IntRange(10, 10_000))
 @loop_option("measure_rate", type=click.IntRange(0, 1000), metavar="HZ")
+@loop_option("realtime_priority", type=click.IntRange(0, 99))
+@loop_option("core", type=click.IntRange(-1, 1023))
 @click.option(
     "--params-file",
     "files",
@@ -36,8 +40,10 @@ from .option_types import FiniteRange, law_option
 )
 def run(out, files, namespace, one_process, view, **options):
     """Run the closed loop as four ROS 2 nodes; writes a bag, a summary and a picture."""
+    if sys.stderr.isatty():
+        click.echo("loading the simulation ...", err=True)
     from .result_folder import CommandError
-    from .run import run_loop  # imported late: --help need not wait for it
+    from .run import run_loop  # imported late: neither --help nor the line above need wait for it
 
     given = {name: value for name, value in {**options, "view": view or None}.items() if value is not None}
     choosing = {"given": given, "files": files, "namespace": namespace, "one_process": one_process, "view": view}

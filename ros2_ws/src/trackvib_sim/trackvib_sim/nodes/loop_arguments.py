@@ -96,6 +96,18 @@ ARGUMENTS = {
         "Rate in Hz of running-gear signals: travel, forces, tension, torque; 0 for none.",
         _of((SIMULATOR, "measure_rate")),
     ),
+    "realtime_priority": Argument(
+        int,
+        "0",
+        "Priority in real time (SCHED_FIFO) of simulator and controller; 0 for none.",
+        _of((SIMULATOR, "realtime_priority"), (CONTROLLER, "realtime_priority")),
+    ),
+    "core": Argument(
+        int,
+        "-1",
+        "Core that simulator and controller keep to; -1 for any.",
+        _of((SIMULATOR, "core"), (CONTROLLER, "core")),
+    ),
     "view": Argument(
         bool,
         "",

@@ -20,7 +20,7 @@ class MeasuredOutput:
             message = Measured(value=[0.0] * len(kind.names))
             message.header.frame_id = topics.ROAD_FRAME
             publisher = node.create_publisher(Measured, topics.measured_topic(kind.name), LOOP_WRITER_QOS)
-            self._kinds.append((publisher, PackedMessage(message, {"value": len(kind.names)})))
+            self._kinds.append((publisher, PackedMessage(message, {"value": (len(kind.names),)})))
         self._description_out = node.create_publisher(MeasuredDescription, topics.MEASURED_DESCRIPTION, LATCHED_QOS)
 
     def introduce(self):

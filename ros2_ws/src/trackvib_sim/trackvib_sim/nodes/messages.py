@@ -53,7 +53,7 @@ class ImuMessage:
         message = Imu()
         message.header.frame_id = frame
         message.orientation_covariance[0] = -1.0
-        self._packed = PackedMessage(message, {"linear_acceleration": 3, "angular_velocity": 3})
+        self._packed = PackedMessage(message, {"linear_acceleration": (3,), "angular_velocity": (3,)})
 
     def fill(self, stamp, specific_force, rate):
         """Return the message's bytes; vectors (3,) in body axes, m/s^2 and rad/s."""
@@ -74,7 +74,7 @@ class MountMessage:
         message.header.frame_id = topics.HULL_FRAME
         for name, values in sample._asdict().items():
             setattr(message, name, [0.0 if values.ndim == 1 else Vector3() for _ in values])
-        self._packed = PackedMessage(message, {name: values.size for name, values in sample._asdict().items()})
+        self._packed = PackedMessage(message, {name: values.shape for name, values in sample._asdict().items()})
 
     def fill(self, stamp, sample):
         """Return the message's bytes."""
@@ -101,39 +101,51 @@ class DriveMessage:
     """How the vehicle is driven."""
 
     def __init__(self):
-        self._message = DriveState()
-        self._message.header.frame_id = topics.HULL_FRAME
+        message = DriveState()
+        message.header.frame_id = topics.HULL_FRAME
+        numbers = ("distance", "offset", "wanted_speed", "curvature", "engine_speed", "gear")
+        fields = dict.fromkeys(numbers, ()) | {"sprocket_speed": (2,), "sprocket_torque": (2,)}
+        self._packed = PackedMessage(message, fields)
 
     def fill(self, stamp, system, state):
-        """Return the message for a `vehicle.system.System` and its `State` at a time [ns]."""
-        m, drive = self._message, state.drive
-        set_stamp(m, stamp)
-        m.distance, m.offset = float(drive.path.distance[0]), float(drive.path.offset[0])
-        m.wanted_speed, m.curvature = float(drive.wanted.speed[0]), float(path_heading(drive.path)[1])
-        m.engine_speed, m.gear = float(drive.crank.speed[0] / RPM), int(drive.shaft.gear[0])
-        m.sprocket_speed = state.tree.hinge_rate[system.drive.driver.sprocket]
-        m.sprocket_torque = drive.driving.torque
-        return m
+        """Return the message's bytes for a `vehicle.system.System` and its `State` at a time [ns]."""
+        drive = state.drive
+        return self._packed.fill(
+            stamp,
+            distance=drive.path.distance[0],
+            offset=drive.path.offset[0],
+            wanted_speed=drive.wanted.speed[0],
+            curvature=path_heading(drive.path)[1],
+            engine_speed=drive.crank.speed[0] / RPM,
+            gear=drive.shaft.gear[0],
+            sprocket_speed=state.tree.hinge_rate[system.drive.driver.sprocket],
+            sprocket_torque=drive.driving.torque,
+        )
 
 
 class OdometryMessage:
     """Pose of the hull on the road and its velocity in its own axes."""
 
+    _POSITION, _ORIENTATION = "pose.pose.position", "pose.pose.orientation"
+    _LINEAR, _ANGULAR = "twist.twist.linear", "twist.twist.angular"
+
     def __init__(self):
-        self._message = Odometry()
-        self._message.header.frame_id = topics.ROAD_FRAME
-        self._message.child_frame_id = topics.HULL_FRAME
+        message = Odometry()
+        message.header.frame_id = topics.ROAD_FRAME
+        message.child_frame_id = topics.HULL_FRAME
+        vectors = dict.fromkeys((self._POSITION, self._LINEAR, self._ANGULAR), (3,))
+        self._packed = PackedMessage(message, vectors | {self._ORIENTATION: (4,)})
 
     def fill(self, stamp, state, sample):
-        """Return the message for a `rui.state.TreeState` and the `simulation.step.Sample` of the same instant."""
-        m = self._message
-        set_stamp(m, stamp)
-        set_vector(m.pose.pose.position, state.position[0].tolist())
-        o = m.pose.pose.orientation
-        o.w, o.x, o.y, o.z = state.attitude[0].tolist()
-        set_vector(m.twist.twist.linear, sample.hull_velocity[0].tolist())
-        set_vector(m.twist.twist.angular, sample.hull_angular_velocity[0].tolist())
-        return m
+        """Return the message's bytes for a `rui.state.TreeState` and the `simulation.step.Sample` of that instant."""
+        w, x, y, z = state.attitude[0].tolist()
+        values = {
+            self._POSITION: state.position[0],
+            self._ORIENTATION: (x, y, z, w),
+            self._LINEAR: sample.hull_velocity[0],
+            self._ANGULAR: sample.hull_angular_velocity[0],
+        }
+        return self._packed.fill(stamp, **values)
 
 
 def diagnostics(stamp, level, text, values):

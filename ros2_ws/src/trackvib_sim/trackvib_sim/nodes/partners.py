@@ -17,6 +17,7 @@ from ..numerics.units import NANO
 # after up to 3 s, if its writer still holds it by then, and meanwhile all that follows waits.
 _LAG = 100  # periods
 _LISTENING = 0.7  # s in which a simulator that is there already makes itself known
+_LOOK = 0.05  # s for what has come meanwhile to be served
 _AGAIN = 1.0  # s after which one that stands still has told its time again
 _TIMEOUT = 10.0  # s without any progress of the recorder
 _LAST = 5.0  # s at the end of a run that shall stop
@@ -49,13 +50,15 @@ class SecondClock:
         """Listen to the clock; `simulated_time()` is the node's own simulated time [ns]."""
         self.ahead = False
         self._node, self._time = node, simulated_time
+        self._since = time.monotonic()
         self._heard = -inf  # wall time of the latest message that was ahead, s
         self._own = 0  # the latest time that the node has ever published, ns: its own clock goes back, too
         self._topic = node.listen(Clock, topics.CLOCK, self._on_clock, CLOCK_QOS).topic_name
 
     def listen(self):
-        """Listen for as long as a simulator that is there already needs to make itself known."""
-        self._node.spin_until(lambda: self._heard > -inf, _LISTENING)
+        """Have listened for as long as a simulator that is there already needs to make itself known."""
+        left = self._since + _LISTENING - time.monotonic()
+        self._node.spin_until(lambda: self._heard > -inf, max(left, _LOOK))
         if self._heard > -inf:
             self._node.spin_until(lambda: self.ahead, _AGAIN)
 

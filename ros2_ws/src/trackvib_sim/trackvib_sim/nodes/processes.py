@@ -8,8 +8,9 @@ from .forked_node import ForkedNode
 # Executables, in the order in which they start.
 FOUR_PROCESSES = ("road_excitation", "controller", "recorder", "simulator")
 ONE_PROCESS = ("recorder", "one_process")  # a recorder that is slow must not hold it
-# In the order in which they end: nobody waits for an answer, and the recorder gets all there is.
-_ENDS = (("simulator", "one_process"), ("controller", "road_excitation"), ("recorder",))
+# In the order in which they end: nobody waits for an answer, and the recorder gets all there is. A simulator ends when
+# all that it said has arrived; whatever else is on its way then, the recorder's own end waits for.
+_ENDS = (("simulator", "one_process"), ("controller", "road_excitation", "recorder"))
 PARAMETERS = "parameters.yaml"  # the file that all of them read
 _GRACE = 60.0  # s for a process to end by itself; on a busy machine it has seconds of work to do
 

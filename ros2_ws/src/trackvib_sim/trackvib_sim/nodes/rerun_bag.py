@@ -56,9 +56,9 @@ class RerunBag:
         simulation, clock = self._simulation, self._clock
         clock.clock.sec, clock.clock.nanosec = divmod(simulation.time, NANO)
         odometry = self._odometry.fill(simulation.time, simulation.state.tree, simulation.sample)
-        self._write(topics.ODOMETRY, serialize_message(odometry))
+        self._write(topics.ODOMETRY, odometry)
         drive = self._drive.fill(simulation.time, simulation.system, simulation.state)
-        self._write(topics.DRIVE_STATE, serialize_message(drive))
+        self._write(topics.DRIVE_STATE, drive)
         self._write(topics.CLOCK, serialize_message(clock))
 
     def _write(self, topic, data):

@@ -11,6 +11,7 @@ from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.listener import Refused
 from mr_mount_controller.node_base.loop_node import LoopNode, NodeError, run_node
 from mr_mount_controller.node_base.qos import LOOP_QOS, ROAD_QOS
+from mr_mount_controller.node_base.scheduling import schedule
 from trackvib_msgs.msg import RoadProfile
 
 from ..numerics.units import NANO
@@ -22,7 +23,7 @@ from .output import DIAGNOSTICS_RATE, SimulatorOutput
 from .partners import Gathering, RecorderLag, SecondClock
 from .run_control import RunControl, services
 from .simulator_parameters import PARAMETERS, prepare
-from .timing import PhaseClock
+from .timing import Lateness, PhaseClock
 
 # where ROS 2 has the types of the standard simulation interfaces
 _STANDARD = import_module(".standard_services", __package__) if find_spec("simulation_interfaces") else None
@@ -40,6 +41,7 @@ class SimulatorNode(LoopNode):
         super().__init__()
         s = self.settings
         self._waits_for_answers = s["pace"] == "lockstep"
+        self._second_clock = SecondClock(self, self._time)  # it listens while the simulation is prepared
         self._simulation, usable, vehicle_text, drive_text = prepare(s)
         self._usable = usable
         self._begin_counts()
@@ -53,7 +55,6 @@ class SimulatorNode(LoopNode):
         self._control = RunControl(self, self._time)
         standard = (self, self._control, self._simulation, vehicle_text)
         self._standard = _STANDARD.StandardServices(*standard) if _STANDARD else None
-        self._second_clock = SecondClock(self, self._time)
         period = self._simulation.settings.rates.period
         self._recorder = RecorderLag(self, period, self._time, lambda: self._heard) if s["wait_for_recorder"] else None
 
@@ -69,12 +70,14 @@ class SimulatorNode(LoopNode):
         coils = self._simulation.mounting.coils
         self._lockstep = Lockstep(coils, self.settings["passive_current"], self._usable, self._waits_for_answers)
         self._phases = PhaseClock("physics", "publishing", "answer", "holding")
+        self._lateness = Lateness()  # of the periods in real time
         self._silent = False  # no answer came in time; the loop runs on without waiting
         self._heard = self._heard_before = -1  # latest sample that somebody has answered, now and when silence fell, ns
         self._start = time.perf_counter()  # of the schedule in real time
 
     def run(self):
         """Wait for the partners, then run period after period until the duration is over or a stop is asked for."""
+        schedule(self.settings)
         self._second_clock.listen()
         self._second_clock.refuse()
         self._output.introduce()
@@ -232,6 +235,7 @@ class SimulatorNode(LoopNode):
             counts["overruns"] += 1
         while (left := due - time.perf_counter()) > 0.0 and not self.stopping():
             self.spin_once(left)
+        self._lateness.add(-left)
         before = None
         while before != counts:  # the latest current counts, so none may be left waiting
             before = counts.copy()
@@ -283,6 +287,7 @@ class SimulatorNode(LoopNode):
             self._warned = True
             self.get_logger().warning(f"{controllers} nodes answer on {topics.COIL_CURRENT}; the first answer is used")
         level, values = health(self._control, self._simulation, self._lockstep, self._phases, self._silent, controllers)
+        values |= self._lateness.quantiles()
         values["refused"] = self.refused
         values["duration"] = self.settings["duration"]
         self._output.publish_diagnostics(level, values["state"], values)

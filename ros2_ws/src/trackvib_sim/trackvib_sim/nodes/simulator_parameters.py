@@ -3,6 +3,7 @@
 from contextlib import suppress
 
 from mr_mount_controller.node_base.parameters import Parameter, ParameterError
+from mr_mount_controller.node_base.scheduling import SCHEDULING
 from mr_mount_controller.node_base.topics import DRIVE_DESCRIPTION, VEHICLE_DESCRIPTION
 
 from ..bags.provenance import parameters_with, recorded_value
@@ -71,6 +72,7 @@ PARAMETERS = (
     Parameter("view_rate", 0, "Rate of frames, joint states and track links for viewers; 0 for none.", "Hz", 0, 1_000),
     Parameter("measure_rate", 0, "Rate of the running-gear signals; 0 for none.", "Hz", 0, 10_000),
     Parameter("wait_for_recorder", False, "Wait for a recorder before the start, and never run far ahead of it."),
+    *SCHEDULING,
 )
 
 

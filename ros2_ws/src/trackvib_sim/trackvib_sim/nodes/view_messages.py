@@ -59,7 +59,7 @@ class JointStateMessage:
 
     def __init__(self, names):
         message = JointState(name=names, position=[0.0] * len(names), velocity=[0.0] * len(names))
-        self._packed = PackedMessage(message, {"position": len(names), "velocity": len(names)})
+        self._packed = PackedMessage(message, {"position": (len(names),), "velocity": (len(names),)})
 
     def fill(self, stamp, position, rate):
         """Return the message's bytes."""

@@ -7,7 +7,6 @@ place. Where it starts, it has been at rest under what it meets first.
 from typing import NamedTuple
 
 import numpy as np
-from scipy import signal
 
 from ..numerics.compiled import inlined, kernel
 from ..numerics.spatial import load3, rotate_back
@@ -68,6 +67,8 @@ def low_pass(corner, rate):
     """
     if corner > WIDEST * rate:
         return np.tile((1.0, 0.0, 0.0, 0.0, 0.0), (_SECTIONS, 1))
+    from scipy import signal  # imported late: it takes a third of what a run has to load
+
     b, a = np.split(signal.butter(ORDER, corner, fs=rate, output="sos"), 2, axis=1)
     return np.hstack((b * (a.sum(axis=1) / b.sum(axis=1))[:, None], a[:, 1:]))
 

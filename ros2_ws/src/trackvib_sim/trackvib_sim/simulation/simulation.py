@@ -13,7 +13,7 @@ from ..vehicle.mounting import mounting_of
 from ..vehicle.parameters import Vehicle
 from ..vehicle.sensors import sensors_of
 from ..vehicle.system import body_rows, build_system, new_work
-from .run_in import run_in
+from .kept_run_in import run_in
 from .sensing import points_of
 from .settings import RunSettings
 from .step import REASONS, Rows, Status, control_periods, new_sample, observe, one_row

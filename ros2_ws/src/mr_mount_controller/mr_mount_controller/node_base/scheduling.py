@@ -1,0 +1,53 @@
+"""How the operating system runs a node: in real time, and on which core."""
+
+import os
+from contextlib import suppress
+
+from .parameters import Parameter, ParameterError
+
+SCHEDULING = (
+    Parameter(
+        "realtime_priority",
+        0,
+        "Priority of the process in real time (SCHED_FIFO), before all that has none; 0 for none.",
+        "",
+        0,
+        99,
+    ),
+    Parameter("core", -1, "Core that the process keeps to; -1 for any.", "", -1, 1023),
+)
+_HINT = "not allowed here: needs root, CAP_SYS_NICE or a limit `ulimit -r` as high (rtprio in limits.conf)"
+
+
+def schedule(settings):
+    """Take up what the parameters `SCHEDULING` say, for every thread that the process has: DDS has made its own.
+
+    Raises
+    ------
+    ParameterError
+        It is not allowed, or there is no such core.
+    """
+    priority, core = (settings[parameter.name] for parameter in SCHEDULING)
+    for thread in map(int, os.listdir("/proc/self/task")):
+        with suppress(ProcessLookupError):  # it has ended meanwhile
+            if core >= 0:
+                _keep_to(thread, core)
+            if priority:
+                _run_in_real_time(thread, priority)
+
+
+def _keep_to(thread, core):
+    try:
+        os.sched_setaffinity(thread, {core})
+    except OSError as error:
+        if isinstance(error, ProcessLookupError):
+            raise
+        cores = ", ".join(map(str, sorted(os.sched_getaffinity(0))))
+        raise ParameterError(f"parameter 'core' is {core}, accepted on this machine is -1 or one of {cores}") from None
+
+
+def _run_in_real_time(thread, priority):
+    try:
+        os.sched_setscheduler(thread, os.SCHED_FIFO, os.sched_param(priority))
+    except PermissionError:
+        raise ParameterError(f"parameter 'realtime_priority' is {priority}, {_HINT}") from None
