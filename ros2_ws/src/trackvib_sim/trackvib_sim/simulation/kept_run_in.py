@@ -26,8 +26,7 @@ def run_in(vehicle, system, settings):
     file = folder / _key(vehicle, system, settings)
     state = fresh.new_state(system)
     with suppress(OSError):
-        data = file.read_bytes()
-        if _filled(state, data):
+        if _filled(state, file.read_bytes()):
             return state
     state = fresh.run_in(vehicle, system, settings)
     with suppress(OSError):  # a full disk, or one that may not be written
@@ -54,11 +53,11 @@ def _leaves(record):
 
 
 def _filled(state, data):
-    """Fill a state with what was kept; returns whether it is as long as the state."""
-    leaves = list(_leaves(state))
-    if len(data) != sum(leaf.nbytes for leaf in leaves):
+    """Fill a state with what was kept; returns whether that is whole."""
+    leaves, place = list(_leaves(state)), sha256().digest_size
+    whole = len(data) == place + sum(leaf.nbytes for leaf in leaves)
+    if not whole or sha256(data[place:]).digest() != data[:place]:
         return False
-    place = 0
     for leaf in leaves:
         leaf[...] = np.frombuffer(data, leaf.dtype, leaf.size, place).reshape(leaf.shape)
         place += leaf.nbytes
@@ -69,7 +68,7 @@ def _keep(file, data):
     """Write a file that is there as a whole or not at all, whoever else writes it as well."""
     file.parent.mkdir(parents=True, exist_ok=True)
     with NamedTemporaryFile(dir=file.parent, prefix=".", delete=False) as draft:
-        draft.write(data)
+        draft.write(sha256(data).digest() + data)
     Path(draft.name).replace(file)
     kept = sorted(file.parent.glob("[!.]*"), key=lambda each: each.stat().st_mtime)
     for old in kept[:-MOST]:

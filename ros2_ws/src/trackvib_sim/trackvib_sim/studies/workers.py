@@ -5,6 +5,7 @@ import logging
 import os
 import signal
 from contextlib import ExitStack, contextmanager
+from itertools import islice
 from multiprocessing import resource_tracker
 
 import dask
@@ -16,6 +17,7 @@ from .case import drive
 from .case_store import program
 
 PATIENCE = 5.0  # s for a cluster to answer
+AHEAD, LEAST_AHEAD = 4, 100  # tasks a thread, and at least, that are handed out before they are due
 LONG_PATIENCE = 30.0  # s for a worker that died to be started again
 _NOISY = ("distributed", "distributed.client", "tornado.application", "tornado.general")
 # scheduler and workers always have an HTTP server; without routes it has nothing to tell
@@ -95,14 +97,17 @@ def finished(client, function, tasks):
     WorkersError
         Scheduler or workers are gone, or cannot do it.
     """
-    futures = client.map(function, *zip(*tasks, strict=True), pure=False)
-    number = {future: k for k, future in enumerate(futures)}
-    pending = set(futures)
+    waiting, number = iter(enumerate(tasks)), {}  # the latter of each future that is not done
+    # thousands handed out at once would cost more than they take
+    most = max(LEAST_AHEAD, AHEAD * sum(client.nthreads().values()))
     try:
-        while pending:
-            done, pending = _next(client, pending)
-            for future in done:
-                yield number[future], future.result()
+        while True:
+            for k, task in islice(waiting, most - len(number)):
+                number[client.submit(function, *task, pure=False)] = k
+            if not number:
+                return
+            for future in _next(client, set(number)):
+                yield number.pop(future), future.result()
     except CancelledError:
         raise WorkersError("the connection to the Dask scheduler is lost") from None
     except KilledWorker as error:
@@ -112,10 +117,10 @@ def finished(client, function, tasks):
 
 
 def _next(client, pending):
-    """Wait until one of the futures is done; returns the sets of those done and not done."""
+    """Wait until one of the futures is done; returns the set of those done."""
     while True:
         try:
-            return wait(pending, PATIENCE, "FIRST_COMPLETED")
+            return wait(pending, PATIENCE, "FIRST_COMPLETED").done
         except TimeoutError:
             if not client.nthreads():
                 _wait_for_worker(client, LONG_PATIENCE)

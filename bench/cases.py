@@ -1,0 +1,99 @@
+"""What a case of a study costs beside its physics: start of the workers, hand-over, filters and store.
+
+    ./trackvib exec -- python bench/cases.py [--cases 10000]
+
+Cases of 2 s of the default vehicle, each on a road of its own, go to one Dask worker a core as in every study. Beside
+them, before and after, the same drives in this process, physics alone. Processor time of all processes is compared.
+"""
+
+import argparse
+import tempfile
+import threading
+import time
+from contextlib import suppress
+from pathlib import Path
+from statistics import mean
+
+import psutil
+import trackvib_sim as tv
+from machine import machine
+from rich.console import Console
+from rich.progress import Progress
+from trackvib_sim.studies import case
+from trackvib_sim.studies.case_store import CaseStore
+from trackvib_sim.studies.run_missing import run_missing
+from trackvib_sim.vehicle.vehicle_file import read_vehicle
+
+DURATION = 2.0  # s measured, after settling
+ALONE = 12  # drives of physics alone, before and after
+
+
+def drive(vehicle, wanted):
+    """As `studies.case.drive`, but for two seconds."""
+    return case.drive(vehicle, wanted, DURATION)
+
+
+def cases(count):
+    """So many cases on roads of class C at 10 m/s."""
+    return [case.Case("C", 10.0, seed, 0.3) for seed in range(1, count + 1)]
+
+
+def physics(vehicle, wanted):
+    """Return the processor time [s] of a case's run alone, its road's heights included."""
+    simulation, road = case.prepare(vehicle, wanted)
+    periods = round((case.settling(wanted.speed) + DURATION) * case.RATES.control)
+    began = time.process_time()
+    tv.run_open_loop(simulation, road, periods)
+    return time.process_time() - began
+
+
+def main():
+    """Drive, count, print."""
+    arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    arguments.add_argument("--cases", type=int, default=200)
+    count = arguments.parse_args().cases
+    file = Path(tv.find_vehicle())
+    vehicle, _ = read_vehicle(file)
+    physics(vehicle, cases(1)[0])
+    alone = [physics(vehicle, wanted) for wanted in cases(ALONE)]
+    with tempfile.TemporaryDirectory() as folder, Progress(console=Console(stderr=True)) as progress:
+        store = CaseStore(folder, file.read_text(encoding="utf-8"))
+        watch, began = Watch(), time.monotonic()
+        found = run_missing(vehicle, cases(count), store, None, progress, "cases", drive)
+        took, spent = time.monotonic() - began, watch.end()
+        size = sum(path.stat().st_size for path in Path(folder).iterdir())
+    alone += [physics(vehicle, wanted) for wanted in cases(ALONE)]
+    assert len(found) == count and all(result.status == case.GOOD for result in found.values())
+    print(f"{count} cases of {DURATION:g} s, {machine()}")
+    print(f"a case: {spent / count:.3f} s of processor, its physics {mean(alone):.3f} s,"
+          f" ratio {spent / count / mean(alone):.2f}")  # fmt: skip
+    print(f"all: {took:.0f} s, {size / count:.0f} bytes a case in the store,"
+          f" {psutil.Process().memory_info().rss / 1e6:.0f} MB in the study's process")  # fmt: skip
+
+
+class Watch:
+    """Looks at the processor time [s] of this process and of all below it until `end`, which returns their sum."""
+
+    def __init__(self):
+        self._own = psutil.Process()
+        self._before, self._spent, self._over = self._time(self._own), {}, threading.Event()
+        self._thread = threading.Thread(target=self._look)
+        self._thread.start()
+
+    def end(self):
+        self._over.set()
+        self._thread.join()
+        return self._time(self._own) - self._before + sum(self._spent.values())
+
+    def _look(self):
+        while not self._over.wait(0.25):
+            for child in self._own.children(recursive=True):
+                with suppress(psutil.Error):  # it has just ended
+                    self._spent[child.pid] = self._time(child)
+
+    def _time(self, process):
+        return sum(process.cpu_times()[:2])
+
+
+if __name__ == "__main__":
+    main()
