@@ -5,6 +5,7 @@ import rclpy
 import yaml
 from mr_mount_controller.node_base.parameter_files import given_by_wildcard
 from mr_mount_controller.node_base.parameters import ParameterError
+from trackvib_sim.nodes.loop_arguments import CONTROLLER, NODES, SIMULATOR, loop_parameters
 from trackvib_sim.nodes.node_parameters import NodeParameters, full_namespace
 
 FIRST = """
@@ -106,3 +107,11 @@ def test_names_that_are_no_namespaces(name):
     """Refused with what is accepted."""
     with pytest.raises(ParameterError, match="accepted are"):
         full_namespace(name)
+
+
+def test_priority_and_core_are_of_both_that_take_turns():
+    """Simulator and controller get them from one option; the others keep what they have."""
+    parameters, _ = loop_parameters({"realtime_priority": 20, "core": 1})
+    for node in NODES:
+        told = [parameters.get(node, name) for name in ("realtime_priority", "core")]
+        assert told == ([20, 1] if node in (SIMULATOR, CONTROLLER) else [None, None])
