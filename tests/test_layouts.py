@@ -61,6 +61,11 @@ def test_rviz():
             assert topic["Durability Policy"] == ("Transient Local" if latched else "Volatile")
             seen.add(name)
     assert {"RobotModel", "MarkerArray", "Marker"} <= seen
+    # panels, tools and views that RViz brings (its `default.rviz` and the description of its plugins)
+    assert {panel["Class"] for panel in layout["Panels"]} <= {"rviz_common/Displays", "rviz_common/Time"}
+    tools = {tool["Class"].removeprefix("rviz_default_plugins/") for tool in manager["Tools"]}
+    assert tools <= {"Interact", "MoveCamera", "FocusCamera", "Measure", "Select"}
+    assert manager["Views"]["Current"]["Class"] == "rviz_default_plugins/Orbit"
 
 
 def test_foxglove():
@@ -71,6 +76,8 @@ def test_foxglove():
         return [node] if isinstance(node, str) else [*panels(node["first"]), *panels(node["second"])]
 
     assert sorted(panels(layout["layout"])) == sorted(layout["configById"])
+    # the kinds of panels as Foxglove names them in layouts that it exports
+    assert {name.split("!")[0] for name in layout["configById"]} <= {"3D", "Plot", "DiagnosticSummary"}
     paths = [path["value"] for each in layout["configById"].values() for path in each.get("paths", ())]
     assert len(paths) == 4
     for path in paths:
