@@ -97,7 +97,7 @@ def test_saved_recording(view, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("--start", 2.0, "--end", 1.0), "the bag holds nothing from 2 to 1 s: it tells of 0.001 to 3.2 s"),
+        (("--start", 2.0, "--end", 1.0), "the bag holds nothing from 2 to 1 s: it covers 0.001 to 3.2 s"),
         (("--start", 50.0), "the bag holds nothing from 50 to inf s"),
         (("--gif", "a.gif", "--rate", 1000.0, "--start", 2.5), "accepted in a picture are 400"),
         (("--gif", "a.gif", "--save", "a.rrd"), "--save and --gif cannot be combined"),

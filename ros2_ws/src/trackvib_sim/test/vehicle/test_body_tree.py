@@ -111,7 +111,7 @@ def _hinge(**changes):
         (lambda body: replace(body, inertia=np.full((3, 3), np.nan)), ("nan", "symmetric 3 x 3")),
         (lambda body: replace(body, inertia=np.eye(2)), ("symmetric 3 x 3",)),
         (lambda body: replace(body, inertia=np.eye(3) + [[0, 1, 0], [0, 0, 0], [0, 0, 0]]), ("symmetric",)),
-        (lambda body: replace(body, name="hull"), ("the name is taken",)),
+        (lambda body: replace(body, name="hull"), ("the name is already used",)),
         (lambda body: replace(body, hinge=None), ("root",)),
         (_hinge(kind="ball"), ("'ball'", "revolute, prismatic")),
         (_hinge(parent="moon"), ("'moon'", "known are hull")),
