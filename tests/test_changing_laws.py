@@ -31,10 +31,10 @@ def test_a_run_with_changes_is_replayed(start_node, observer, tmp_path):
     start_node("controller", law="skyhook", firm_current=2.5)
     simulator = start_node("simulator", wait_for_recorder=True, answer_timeout=UNHURRIED)
     for time, values, accepted in (
-        (0.3, {"firm_current": 3.5, "soft_current": 1.0}, True),
-        (0.6, {"soft_current": 3.0, "firm_current": 2.0}, False),
-        (0.6, {"firm_current": 2.0, "law": "passive"}, False),
-        (0.9, {"corner": 1}, True),
+        (1.0, {"firm_current": 3.5, "soft_current": 1.0}, True),
+        (1.3, {"soft_current": 3.0, "firm_current": 2.0}, False),
+        (1.3, {"firm_current": 2.0, "law": "passive"}, False),
+        (1.6, {"corner": 1}, True),
     ):
         observer.wait_until(lambda time=time: float(observer.values.get("time", 0.0)) > time)
         result = changed(observer, **values)

@@ -141,7 +141,7 @@ def test_fmpy_drives_it_as_the_process_does(fmpy, tmp_path):
         (["--road", "Z"], "accepted are a class"),
         (["--vehicle", "nobody"], "vehicles known by name are"),
         (["--speed", "99"], "is not in the range"),
-        (["--physics-rate", "1500"], "clash"),
+        (["--physics-rate", "1500"], "conflict"),
         (["--gears", "--vehicle", "m113"], "gears"),
     ],
 )

@@ -34,7 +34,7 @@ def help_text(program, nodes):
             parts.append("\n".join([f"{title}:", *(_parameter(prefix, each) for each in parameters)]))
         published = [each for each in TOPICS if each.publisher == node.NAME]
         heard = [each for each in TOPICS if node.NAME in each.readers]
-        for title, topics in (("publishes", published), ("listens to", heard)):
+        for title, topics in (("publishes", published), ("subscribes to", heard)):
             if topics:
                 lines = (_topic(each) for each in topics)
                 parts.append("\n".join([f"{node.NAME} {title}:", *lines]))

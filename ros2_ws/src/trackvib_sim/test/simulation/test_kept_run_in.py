@@ -29,7 +29,7 @@ def test_kept_and_fresh_are_the_same(folder, vehicle, monkeypatch):
     first = run_in(vehicle)
     assert len(list(folder.iterdir())) == 1
     done = run_in(vehicle, of=fresh)
-    monkeypatch.setattr(fresh, "advance", None)
+    monkeypatch.setattr(fresh, "control_periods", None)
     for ours in (first, run_in(vehicle)):
         assert all(map(np.array_equal, ours, done))
 
@@ -44,13 +44,14 @@ def test_what_differs_is_kept_apart(folder, vehicle):
     assert len(list(folder.iterdir())) == 4
 
 
-def test_a_file_that_is_cut_short_is_done_again(folder, vehicle):
+def test_a_damaged_file_is_done_again(folder, vehicle):
     first = run_in(vehicle)
     (file,) = folder.iterdir()
     whole = file.read_bytes()
-    file.write_bytes(whole[:-8])
-    assert all(map(np.array_equal, run_in(vehicle), first))
-    assert file.read_bytes() == whole
+    for damaged in (whole[:-8], whole[:-8] + bytes(8), b""):
+        file.write_bytes(damaged)
+        assert all(map(np.array_equal, run_in(vehicle), first))
+        assert file.read_bytes() == whole
 
 
 def test_the_oldest_make_room(folder, vehicle, monkeypatch):

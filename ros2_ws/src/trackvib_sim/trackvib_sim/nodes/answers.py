@@ -60,8 +60,10 @@ def misfits(node, publishers):
             verdict, reason = qos_check_compatible(publisher.qos_profile, _asked_for(each.qos_profile))
             if verdict == QoSCompatibility.ERROR and each.node_name != _NOT_KNOWN_YET:
                 name = readable(f"{each.node_namespace.rstrip('/')}/{each.node_name}")
-                yield f"{name} receives nothing on {publisher.topic_name}, its QoS is incompatible: "
-                f"{reason.rstrip(' ;')}"
+                yield (
+                    f"{name} receives nothing on {publisher.topic_name}, its QoS is incompatible: "
+                    f"{reason.rstrip(' ;')}"
+                )
 
 
 def _asked_for(profile):

@@ -32,7 +32,7 @@ def test_work_of_the_drive_is_found_again(rolled):
 
 @pytest.mark.cross_engine
 def test_force_without_the_account_is_the_same(vehicle, rolled, simulation, level):
-    """The driver's integral, and the work that a run books by the way, to the scatter of a second: 3 %."""
+    """The work that a run books by the way, over the same second and from the start on, to the scatter of one: 3 %."""
     assert pull(vehicle, FAST) == pytest.approx(force(rolled), rel=0.03)
     moving = simulation(FAST.speed)
     run_open_loop(moving, level, 3000)
