@@ -42,7 +42,7 @@ class ResistanceResult:
 def pull(vehicle, case):
     """Return the mean force [N] that keeps a vehicle's speed in a case, without an account of where it goes.
 
-    It is the work of the drive per way. (The driver's integral comes out 3 % less: blows hold the vehicle up meanwhile.)
+    It is the work of the drive per way. The driver's integral alone comes out 3 % less.
 
     Raises
     ------
