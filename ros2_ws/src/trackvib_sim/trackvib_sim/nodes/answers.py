@@ -61,8 +61,7 @@ def misfits(node, publishers):
             if verdict == QoSCompatibility.ERROR and each.node_name != _NOT_KNOWN_YET:
                 name = readable(f"{each.node_namespace.rstrip('/')}/{each.node_name}")
                 yield (
-                    f"{name} receives nothing on {publisher.topic_name}, its QoS is incompatible: "
-                    f"{reason.rstrip(' ;')}"
+                    f"{name} receives nothing on {publisher.topic_name}, its QoS is incompatible: {reason.rstrip(' ;')}"
                 )
 
 
