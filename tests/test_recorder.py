@@ -24,6 +24,7 @@ from trackvib_sim.bags.contents import contents
 from trackvib_sim.bags.repair import repair
 from trackvib_sim.data import find_vehicle
 from trackvib_sim.nodes.messages import ImuMessage, MountMessage
+from trackvib_sim.nodes.topic_choice import subscribe
 from trackvib_sim.vehicle.mounts import MountSample
 
 from .bag_helpers import attachment
@@ -84,6 +85,11 @@ def test_killed_recorder_loses_the_last_second_at_most(start, start_node, observ
     np.testing.assert_array_equal(np.diff(counts), 1.0)
     if seconds > 1.0:
         assert stamps[0] < began and stamps[-1] >= max(until for when, until in told if when < killed - SECOND)
+
+
+def test_a_topic_that_has_just_gone_is_not_taken_up(observer):
+    """Between the look for topics and the subscription whoever published may end."""
+    assert subscribe(observer.node, "/gone", print) is None
 
 
 @SLOW

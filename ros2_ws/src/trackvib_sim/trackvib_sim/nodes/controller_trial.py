@@ -78,8 +78,9 @@ class ControllerTrial:
             self._patience.look(_TICK)
 
     def type_hash(self):
-        """Return the hash of the answers' type, as bags note it."""
-        return str(self._node.get_publishers_info_by_topic(self._answers.topic)[0].topic_type_hash)
+        """Return the hash of the answers' type, as bags note it; nothing if the controller has just gone."""
+        infos = self._node.get_publishers_info_by_topic(self._answers.topic)
+        return str(infos[0].topic_type_hash) if infos else ""
 
     def answer(self, stamp, chassis, powertrain):
         """Publish both Imu messages (bytes) of a sample; returns the `Answer`, or None if none comes in time.

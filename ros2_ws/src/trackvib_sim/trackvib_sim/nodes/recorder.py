@@ -129,7 +129,8 @@ class RecorderNode(LoopNode):
             if self._take_all():
                 self._report()
             self._flush_in_time()
-            if self.settings["pattern"] and time.monotonic() - looked > _LOOK:
+            seeking = self.settings["pattern"] or not set(chosen) <= set(self._topics)
+            if seeking and time.monotonic() - looked > _LOOK:
                 for name in self._take_up(self._choice.present()):
                     self.get_logger().info(f"{name} has appeared and is recorded")
                 looked = time.monotonic()
@@ -185,13 +186,16 @@ class RecorderNode(LoopNode):
         new = sorted(set(names) - set(self._topics) - self._refused)
         for name in new:
             try:
-                topic, subscription = subscribe(self, name, self._on_message)
+                taken = subscribe(self, name, self._on_message)
             except ValueError as error:
                 if name in self._choice.named:
                     raise NodeError(f"{name} cannot be recorded: {error}") from None
                 self._refused.add(name)
                 self.get_logger().warning(plain_line(f"{name} is not recorded: {error}"))
                 continue
+            if taken is None:  # should it come back, it is new again
+                continue
+            topic, subscription = taken
             self._topics[name] = topic
             self._taken.append(subscription)
             self._announce(topic)

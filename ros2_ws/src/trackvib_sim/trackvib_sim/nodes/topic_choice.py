@@ -93,7 +93,8 @@ def subscribe(node, name, on_message):
 
     Returns
     -------
-    Topic, Subscription
+    Topic, Subscription, or None
+        None where whoever published has just gone.
 
     Raises
     ------
@@ -101,6 +102,8 @@ def subscribe(node, name, on_message):
         Its type is not installed here.
     """
     infos = node.get_publishers_info_by_topic(name)
+    if not infos:
+        return None
     offers = [info.qos_profile for info in infos]
     qos = QoSProfile(depth=_DEPTH)
     if all(offer.durability == QoSDurabilityPolicy.TRANSIENT_LOCAL for offer in offers):
