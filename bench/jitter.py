@@ -6,16 +6,14 @@ Simulator, road and controller at 1 kHz, each a process, with `pace: realtime`; 
 machine is quiet when nobody else uses it. Priorities in real time need the right to them.
 """
 
-import contextlib
 import os
-import subprocess
 import sys
 import tempfile
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 
 import click
-from machine import machine
+from machine import busy, machine
 from rich.console import Console
 from rich.progress import track
 from rich.table import Table
@@ -27,18 +25,6 @@ PROCESSES = [name for name in FOUR_PROCESSES if name != "recorder"]
 WAYS = {"as it is": {}, "priority": {"realtime_priority": 20}, "priority, core": {"realtime_priority": 20, "core": 0}}
 SHARES = ("p50", "p99", "p99.9")
 LOOK = 0.2  # s
-
-
-@contextlib.contextmanager
-def busy_loops(number):
-    """So many processes that do nothing but take the processor."""
-    loops = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(number)]
-    try:
-        yield
-    finally:
-        for each in loops:
-            each.kill()
-            each.wait()
 
 
 def lateness(seconds, scheduling):
@@ -68,15 +54,15 @@ def lateness(seconds, scheduling):
 def main(seconds):
     cores = len(os.sched_getaffinity(0))
     table = Table("lateness, us", *SHARES, "overruns", title=machine())
-    runs = [(busy, way) for busy in (0, cores) for way in WAYS]
-    for busy, way in track(runs, "runs"):
+    runs = [(loops, way) for loops in (0, cores) for way in WAYS]
+    for loops, way in track(runs, "runs"):
         # a process for each: ROS 2 must not be loaded where the next nodes are made
-        with busy_loops(busy), ProcessPoolExecutor(1, mp_context=get_context("fork")) as apart:
+        with busy(loops), ProcessPoolExecutor(1, mp_context=get_context("fork")) as apart:
             told = apart.submit(lateness, seconds, WAYS[way]).result()
         numbers = ["not allowed"]
         if told is not None:
             numbers = [*(f"{float(told[f'late_us_{share}']):.0f}" for share in SHARES), told["overruns"]]
-        table.add_row(f"{f'beside {busy} busy loops' if busy else 'quiet'}, {way}", *numbers)
+        table.add_row(f"{f'beside {loops} busy loops' if loops else 'quiet'}, {way}", *numbers)
     Console(width=110).print(table)
 
 

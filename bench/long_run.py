@@ -11,29 +11,14 @@ import subprocess
 import sys
 import tempfile
 import time
-from contextlib import contextmanager
 from pathlib import Path
 
 import click
-from machine import machine
+from machine import busy, machine
 from trackvib_sim.analysis.completeness import missing
 from trackvib_sim.bags.reading import read_recording
-from trackvib_sim.nodes.forked_node import end_with_parent
 
 CLI = (sys.executable, "-m", "trackvib_sim.cli")
-
-
-@contextmanager
-def busy(processes):
-    """Let so many processes compute."""
-    command = [sys.executable, "-c", "while True: pass"]
-    running = [subprocess.Popen(command, preexec_fn=end_with_parent) for _ in range(processes)]
-    try:
-        yield
-    finally:
-        for process in running:
-            process.kill()
-            process.wait()
 
 
 def row(number, folder, took):

@@ -1,8 +1,13 @@
-"""What the benchmarks share: the name of the machine, and timing things beside each other in one run."""
+"""What the benchmarks share: the name of the machine, a busy one, and timing things beside each other."""
 
 import os
 import platform
+import subprocess
+import sys
 import time
+from contextlib import contextmanager
+
+from trackvib_sim.nodes.forked_node import end_with_parent
 
 
 def machine():
@@ -28,3 +33,16 @@ def best_times(tasks, rounds):
             task()
             best[name] = min(best[name], time.perf_counter() - began)
     return best
+
+
+@contextmanager
+def busy(processes):
+    """Let so many processes compute."""
+    command = [sys.executable, "-c", "while True: pass"]
+    running = [subprocess.Popen(command, preexec_fn=end_with_parent) for _ in range(processes)]
+    try:
+        yield
+    finally:
+        for process in running:
+            process.kill()
+            process.wait()
