@@ -24,7 +24,8 @@ _GRACE = 10.0  # seconds an interrupted step has to clean up after itself
 
 def say(text: str, end: str = "\n") -> None:
     """Print for the user; on stderr, because stdout belongs to the job."""
-    print(f"trackvib: {text}", end=end, file=sys.stderr, flush=True)
+    sys.stderr.write(f"trackvib: {text}{end}")  # at one go: others at work speak, too
+    sys.stderr.flush()
 
 
 @contextlib.contextmanager
