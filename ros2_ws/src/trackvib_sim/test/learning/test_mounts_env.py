@@ -156,7 +156,7 @@ def test_options_that_are_none(env, options, said):
         ({"speed": 99.0}, "'speed' is 99.0, accepted is a number from -25 to 25 m/s"),
         ({"spede": 5.0}, "there is no parameter spede; known are speed, drive"),
         ({"duration": 5.0}, "there is no parameter duration"),
-        ({"control_rate": 999}, "physics_rate 10000 Hz and control_rate 999 Hz conflict"),
+        ({"control_rate": 999}, "physics_rate 5000 Hz and control_rate 999 Hz conflict"),
         ({"vehicle": "nowhere.yaml"}, "nowhere.yaml"),
         ({"road": "Z"}, "Z"),
         ({"render_mode": "human"}, "render_mode is 'human'"),
