@@ -40,7 +40,7 @@ def vehicles():
 
 
 def figures_of(name):
-    """What follows from the parameters of a shipped vehicle."""
+    """Quantities derived from the parameters of a shipped vehicle."""
     return [Figure._fields, *figures(read_vehicle(find_vehicle(name))[0])]
 
 

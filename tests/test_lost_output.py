@@ -48,7 +48,7 @@ def test_a_terminal_that_breaks_off_costs_no_results(recorded_run, env, tmp_path
     os.close(writer)
     assert done.returncode == 1
     assert (
-        one_error(done.stderr) == "error: standard output cannot be written: Broken pipe; files are left all the same\n"
+        one_error(done.stderr) == "error: standard output cannot be written: Broken pipe; files are written nevertheless\n"
     )
     files = {path.name for path in (tmp_path / "out").iterdir()}
     assert (

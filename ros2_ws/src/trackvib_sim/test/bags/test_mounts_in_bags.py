@@ -53,7 +53,7 @@ def test_without_a_coil(tmp_path):
 @pytest.mark.parametrize(
     ("mounting", "told", "words"),
     [
-        (undescribed(3), FOUR, "mount_description tells of 2 coils and 4 mounts, mount_state has 3 and 3"),
+        (undescribed(3), FOUR, "mount_description describes 2 coils and 4 mounts, mount_state has 3 and 3"),
         (PAIR, PAIR._replace(mounts=PAIR.mounts[:1] * 2), "mount names are left, left"),
     ],
 )

@@ -17,7 +17,7 @@ def find_notes(recording, segments):
     """Return what was found wrong with a recording and its `Segments`, and what cannot be had of it."""
     notes = []
     if not recording.complete:
-        notes.append("the bag was cut short; what it holds is used (`trackvib bag repair` repairs it)")
+        notes.append("the bag was cut short; its readable part is used (`trackvib bag repair` repairs it)")
     odd = {end: _not_finite(columns) for end, columns in recording.streams.items()}
     for end, found in segments.timing.items():
         missing = "1 sample is" if found.missing == 1 else f"{found.missing} samples are"

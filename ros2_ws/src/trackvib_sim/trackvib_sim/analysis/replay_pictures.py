@@ -63,7 +63,7 @@ def currents_picture(time, recorded, replayed, names, title, path):
                 colour, dash = COIL_COLOURS[index % len(COIL_COLOURS)], _DASHES[(index + index // 4) % len(_DASHES)]
                 style = {"color": colour, "linestyle": dash, "linewidth": 0.9, "drawstyle": "steps-post"}
                 plot.plot(time, each, label=f"{name} coil", **style)
-    for (plot, _), words in zip(rows, ("recorded, A", "replayed, A", "replayed less\nrecorded, A"), strict=True):
+    for (plot, _), words in zip(rows, ("recorded, A", "replayed, A", "replayed minus\nrecorded, A"), strict=True):
         plot.set_ylabel(words)
     rows[1, 0].sharey(rows[0, 0])
     rows[0, 0].autoscale()

@@ -83,7 +83,7 @@ def start_of(recording):
     odometry, chassis = recording.odometry, recording.chassis.stamp
     period = period_of(chassis)
     if not period > 0.0:
-        raise ValueError(f"stamps of chassis/imu go on by {period:g} ns from sample to sample, must be above 0")
+        raise ValueError(f"stamps of chassis/imu advance by {period:g} ns from sample to sample, must be above 0")
     if odometry is not None and odometry.stamp[0] == 0:  # of the vehicle before the first period
         return 0
     return int(min(chassis[0], recording.powertrain.stamp[0])) - round(period)
@@ -108,7 +108,7 @@ def losses(recording):
     expected = round((last - begin) / period)
     if not 0 < expected <= MOST_LOST * len(chassis):
         reach = f"{(last - begin) / NANO:g} s in steps of {period / NANO:g} s"
-        raise ValueError(f"stamps reach over {reach}, which {len(chassis)} samples of chassis/imu cannot fill")
+        raise ValueError(f"stamps cover {reach}, which {len(chassis)} samples of chassis/imu cannot fill")
     counted = {}
     for name, stamp in (("chassis", chassis), ("powertrain", powertrain), ("answered", answered)):
         seen, inside = np.zeros(expected, bool), 0

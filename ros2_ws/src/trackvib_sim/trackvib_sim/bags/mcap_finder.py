@@ -98,7 +98,7 @@ class RecordFinder:
         content = self.bytes_at(place + FRAME, length)
         parse(opcode, content)
         if opcode in _LOOSE and not self._plausible(end):
-            raise ValueError(f"a record of {length} bytes behind which none stands")
+            raise ValueError(f"a record of {length} bytes without a valid record after it")
         if opcode == Opcode.MESSAGE and self.chunked and is_message_index(content):
             raise ValueError("an index of messages under another opcode")
         flaw = "the record that ends the data is missing" if opcode == Opcode.FOOTER else ""

@@ -31,7 +31,7 @@ def mounting_of(told, mounts, answers):
         return undescribed(coils, count)
     if mounts is not None and (told.coils, len(told.mounts)) != (coils, count):
         raise ValueError(
-            f"{topics.MOUNT_DESCRIPTION} tells of {told.coils} coils and {len(told.mounts)} mounts, "
+            f"{topics.MOUNT_DESCRIPTION} describes {told.coils} coils and {len(told.mounts)} mounts, "
             f"{topics.MOUNT_STATE} has {coils} and {count}"
         )
     return told

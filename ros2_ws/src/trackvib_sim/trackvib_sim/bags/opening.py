@@ -57,10 +57,10 @@ def _unfold(stream, whole, file, head):
     most = most_unfolded(file.stat().st_size)
     size = zstd_claim(head) or 0
     if size > most:
-        raise too_large(f"{file.name!r}, unfolded,", size)
+        raise too_large(f"{file.name!r}, decompressed,", size)
     for part in unfolded_parts(stream):
         size = whole.tell() + len(part)
         if size > most:
-            raise too_large(f"{file.name!r}, unfolded,", size)
+            raise too_large(f"{file.name!r}, decompressed,", size)
         whole.write(part)
     whole.seek(0)

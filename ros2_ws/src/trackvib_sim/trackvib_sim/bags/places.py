@@ -52,7 +52,7 @@ class Places:
         for type_name, of_type in self._topics.items():
             for topic in sorted(of_type)[:1]:
                 others = f", {len(of_type) - 1} others left out" if len(of_type) > 1 else ""
-                note = f"speed and way are those of {topic} ({type_name.rsplit('/', 1)[-1]}{others})"
+                note = f"speed and distance are those of {topic} ({type_name.rsplit('/', 1)[-1]}{others})"
                 found = of_type[topic].columns()
                 if type_name == NAV_SAT_FIX_TYPE:
                     found = odometry_of_fixes(found)

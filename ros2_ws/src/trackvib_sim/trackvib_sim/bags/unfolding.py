@@ -36,12 +36,12 @@ def unfold(compression, data, size, what):
     """
     bound = min(size, largest_record())
     if compression == "zstd" and size > bound and zstd_claim(data) == size:
-        raise too_large(f"{what}, unfolded,", size)
+        raise too_large(f"{what}, decompressed,", size)
     contents = COMPRESSIONS[compression](data, bound + 1)
     if len(contents) > size:
         raise ValueError(f"holds more than the {size} bytes that it declares")
     if len(contents) > bound:
-        raise too_large(f"{what}, unfolded,", size)
+        raise too_large(f"{what}, decompressed,", size)
     return contents
 
 

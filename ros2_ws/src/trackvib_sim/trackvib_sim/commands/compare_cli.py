@@ -22,7 +22,7 @@ _ALIGNMENTS = ("auto", "speed", "distance", "none")
     default="auto",
     show_default=True,
     help="Compare what was driven at the same speed, or at the same distance along the way; auto: by speed where "
-    "both contain it (odometry or satellite fixes), else statistics of all that counts.",
+    "both contain it (odometry or satellite fixes), else statistics of all time that counts.",
 )
 @interval_option
 @speed_band_option

@@ -48,6 +48,6 @@ def run_fmu(out, vehicle, road, seed, speed, drive, gears, physics_rate):
     console.print(f"steps: whole multiples of the control period, {made.period:g} s")
     console.print(
         f"needs: Linux on x86-64, a simulator whose process is Python {sys.version_info[0]}.{sys.version_info[1]} "
-        "(FMPy, for instance), and the packages, kernels and files of roads where they are now; vehicle and drive are "
-        "inside"
+        "(FMPy, for instance), and the packages, kernels and road files in their present folders; the FMU contains "
+        "vehicle and drive"
     )

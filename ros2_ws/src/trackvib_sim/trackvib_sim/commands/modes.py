@@ -54,11 +54,11 @@ def run_modes(name_or_file, current, highest, picture):
         titles = [f"{mode.frequency:.2f} Hz, {mode.damping_ratio:.3f}\n{_motion(model, mode)}" for mode in drawn]
         with whole_or_none(Path(picture)) as (file,):
             mode_pictures(model, drawn, titles, file)
-        out.print(f"picture of the first of each line: {picture}")
+        out.print(f"picture of the first mode of each line: {picture}")
 
 
 def _table(model, found, title):
-    table = Table("Hz", "damping ratio", "modes", "motion: parts of the kinetic energy", title=title)
+    table = Table("Hz", "damping ratio", "modes", "motion: share of the kinetic energy", title=title)
     for group in _groups(model, found):
         frequency = _range([mode.frequency for mode in group], 3)
         table.add_row(frequency, _range([mode.damping_ratio for mode in group], 3), *_rest(model, group))
@@ -67,7 +67,7 @@ def _table(model, found, title):
 
 def _creeping(model, found):
     title = "Motions that creep back without oscillating"
-    table = Table("time constant, s", "modes", "motion: parts of the kinetic energy", title=title)
+    table = Table("time constant, s", "modes", "motion: share of the kinetic energy", title=title)
     for group in _groups(model, found):
         table.add_row(_range([1.0 / abs(mode.pole) for mode in group], 4), *_rest(model, group))
     return table

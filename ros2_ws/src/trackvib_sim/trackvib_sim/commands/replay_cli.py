@@ -24,7 +24,7 @@ def _law_or_external(context, parameter, value):
     "--verify",
     is_flag=True,
     help="Run the simulator on the recorded road and currents; its sensor samples must be bit-identical. "
-    "Exit code 0: they do, 1: they do not, 2: the bag does not tell enough.",
+    "Exit code 0: they do, 1: they do not, 2: the bag lacks information.",
 )
 @law_option("--law", default=None, metavar="LAW", help="Repeat the run on the recorded road with another control law")
 @click.option(

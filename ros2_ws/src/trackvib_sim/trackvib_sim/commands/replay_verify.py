@@ -73,7 +73,7 @@ def verify(bag, console):
             raise NotVerifiable(f"{stream.topic} has the stamp {odd[0]} ns, which is not the end of a period")
     currents = currents_in_force(simulation, recording, values["on_silence"])
     other = _other_versions(recording.provenance)
-    for _ in followed(range(last // rates.period), "driving again", console):
+    for _ in followed(range(last // rates.period), "repeating the run", console):
         try:
             demanded = next(currents)
         except NotTold as gap:
@@ -96,7 +96,7 @@ def verify(bag, console):
     if not all(stream.compared for stream in streams):
         raise NotVerifiable(f"its samples begin after t = {simulation.time / NANO:.3f} s, where its answers end")
     count = ", ".join(f"{stream.compared} of {stream.topic}" for stream in streams)
-    cut = "" if recording.complete else "; the bag was cut short and holds no more"
+    cut = "" if recording.complete else "; the bag was cut short and contains no more"
     return True, f"identical to the last bit: {count}, up to t = {simulation.time / NANO:.3f} s{cut}{other}"
 
 
@@ -129,7 +129,7 @@ class _Stream:
 def _require_same_mounts(recorded, simulated):
     there, here = ((mounting.coils, len(mounting.mounts)) for mounting in (recorded, simulated))
     if there != here:
-        raise NotVerifiable("it tells of {} coils and {} mounts, its vehicle has {} and {}".format(*there, *here))
+        raise NotVerifiable("it describes {} coils and {} mounts, its vehicle has {} and {}".format(*there, *here))
 
 
 def _after(simulation, streams, reason):

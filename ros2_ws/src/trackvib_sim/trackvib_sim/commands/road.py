@@ -52,7 +52,7 @@ def run_road(text, seed, length, begin, tread, csv, crg, out):
     console.print(_table(heights, road, f"{road_in_words(text)}, {distance[0]:g} to {distance[-1]:g} m"))
     ground = getattr(road, "ground", road)  # under obstacles
     taken = "interpolated linearly, " if isinstance(ground, ProfileRoad) and not ground.even else ""
-    bridged = "; shoes bridge what is shorter than a link" if road.spacing < SHORTEST else ""
+    bridged = "; shoes bridge anything shorter than a link" if road.spacing < SHORTEST else ""
     console.print(f"samples are {taken}{road.spacing:g} m apart{bridged}", soft_wrap=True)
     console.print(f"left: {', '.join(map(str, paths))}", soft_wrap=True)
 

@@ -82,7 +82,7 @@ def _parameters(text):
 
 
 def _figures(vehicle):
-    table = Table(*Figure._fields, title="What follows from these")
+    table = Table(*Figure._fields, title="Derived quantities")
     for figure in figures(vehicle):
         table.add_row(*figure)
     return table

@@ -63,7 +63,7 @@ def sprocket_entry(plot, assembled, labels):
     x, z = MM * 0.5 * (pins[entering - 1] + pins[entering])
     labels.add(plot, f"flank, {np.degrees(np.arctan(s.slope)):.1f}° to the radius", flank[20])
     labels.add(plot, f"backlash {MM * s.backlash:.2g} to either side", flank[0])
-    labels.add(plot, "way of a pin on the taut run", way[-1], WAY_IN["color"])
+    labels.add(plot, "path of a pin on the taut run", way[-1], WAY_IN["color"])
     labels.add(plot, f"pitch circle, R {MM * s.pitch_radius:.1f}", seat)
     plot.set_xlim(x - WINDOW, x + WINDOW)
     plot.set_ylim(z - 0.85 * WINDOW, z + 0.85 * WINDOW)

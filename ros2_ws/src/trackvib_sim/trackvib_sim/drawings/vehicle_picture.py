@@ -55,7 +55,7 @@ from .vehicle_views import (
     sensors,
 )
 
-NOTE = """dashed: boxes of even density with a body's
+NOTE = """dashed: boxes of uniform density with a body's
 mass and inertia, not its shape
 blue swing arms: with shock absorber
 wheels and sprockets have the radius of the pin line"""

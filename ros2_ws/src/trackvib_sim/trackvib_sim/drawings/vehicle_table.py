@@ -27,7 +27,7 @@ class Parameter(NamedTuple):
 
 
 class Figure(NamedTuple):
-    """What follows from the parameters."""
+    """A quantity derived from the parameters."""
 
     quantity: str
     value: str
@@ -78,7 +78,7 @@ def figures(vehicle):
 def _masses(assembled):
     t = assembled.vehicle.tracks
     centre = _words((assembled.centre.round(3) + 0.0).tolist())
-    yield "mass", f"{1e-3 * assembled.mass:.2f}", "t", f"of it both tracks {1e-3 * sum(t.links) * t.shoe_mass:.2f} t"
+    yield "mass", f"{1e-3 * assembled.mass:.2f}", "t", f"of which tracks: {1e-3 * sum(t.links) * t.shoe_mass:.2f} t"
     yield "centre of mass", centre, "m", "from the road below the hull's origin"
 
 
@@ -86,7 +86,7 @@ def _loads(vehicle):
     loads, trimmed = standing_loads(vehicle), loads_at_rest(vehicle)
     wheels = _by_side([[f"{1e-3 * load:.1f}" for load in side] for side in loads.wheel])
     yield "loads of the road wheels", wheels, "kN", "at rest, from front to rear"
-    yield "give of the tyres", f"{1e3 * sink(vehicle):.1f}", "mm", "under equal shares of the bodies' weight"
+    yield "compression of the tyres", f"{1e3 * sink(vehicle):.1f}", "mm", "under equal shares of the bodies' weight"
     for name, force in loads.mount.items():
         along = _words(((1e-3 * force).round(2) + 0.0).tolist())
         kind = vehicle.mount_types[vehicle.mounts[name].type].kind
@@ -99,7 +99,7 @@ def _tracks(assembled):
     length = _by_side([f"{links * t.pitch:.3f}" for links in t.links])
     yield "length of a track", length, "m", f"{_by_side([f'{links:g}' for links in t.links])} links"
     travel = _by_side([f"{mm * travel:.1f}" for travel in assembled.travel])
-    yield "travel of the tensioners", travel, "mm", "forwards, at which the track closes at its pretension"
+    yield "travel of the tensioners", travel, "mm", "forwards, where the track closes at its pretension"
     passing = ", ".join(f"{speed / t.pitch:.2f}" for speed in SPEEDS)
     yield "link-passing frequency v/p", passing, "Hz", f"at {', '.join(f'{speed:g}' for speed in SPEEDS)} m/s"
 
@@ -109,14 +109,14 @@ def _teeth(assembled):
     gap, needed = (s.tip_radius * way(s)[1][-1] for way in (half_gap, free_entry))
     yield "pitch radius of the sprockets", f"{mm * s.pitch_radius:.2f}", "mm", "the circle on which pins rest"
     yield "gap at the tip of the teeth", f"{mm * gap:.1f}", "mm", "from its middle to a flank"
-    yield "gap for a free way in", f"{mm * needed:.1f}", "mm", "that a pin on the taut run needs there"
+    yield "gap for free entry", f"{mm * needed:.1f}", "mm", "needed there by a pin on the taut run"
 
 
 def _rates(vehicle):
     contact, frequency = fastest_contact(vehicle)
     rate = recommended_rate(vehicle)
     yield "longest stable step", f"{1e3 * longest_step(vehicle):.3f}", "ms", "of a pin between two links"
-    note = f"then a pin {contact}, at {frequency / (2.0 * pi):.0f} Hz, moves on by {frequency / rate:.2f} rad a step"
+    note = f"a pin {contact}, at {frequency / (2.0 * pi):.0f} Hz, then advances by {frequency / rate:.2f} rad per step"
     yield "recommended physics rate", f"{rate}", "Hz", note
 
 

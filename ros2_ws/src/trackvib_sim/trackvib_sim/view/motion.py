@@ -78,7 +78,7 @@ def _driven_again(recording, vehicle, span, console):
     every = max(1, round(rates.control / span.rate))
     frames, note = [], ""
     currents = currents_in_force(simulation, recording, values["on_silence"])
-    for _ in followed(range(int(span.end * NANO) // rates.period), "driving again", console):
+    for _ in followed(range(int(span.end * NANO) // rates.period), "repeating the run", console):
         try:
             demanded = next(currents)
             if not simulation.road_is_enough():

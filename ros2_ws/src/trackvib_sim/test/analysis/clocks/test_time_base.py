@@ -110,7 +110,7 @@ def test_swapped_pairs_are_put_in_order():
         pair = (sensor(time, gain, kept=order)._replace(logged=logged) for gain in (1.0, 0.5))
         found = analyse(recorded(*pair))
         require_right(found, 1000.0)
-        assert found.measured == 8.0 and says(found, "20 samples were put in the order of their stamps")
+        assert found.measured == 8.0 and says(found, "20 samples were sorted by their stamps")
 
 
 @pytest.mark.analytic
@@ -151,7 +151,7 @@ def test_stamps_that_do_not_coincide(offset):
     found = analyse(recorded(sensor(time), sensor(time, 0.5, time + offset)))
     require_right(found, 1000.0)
     assert found.measured == pytest.approx(10.0, abs=0.11)
-    assert says(found, "recorded at the same time: taken back") == (offset > 1.0)
+    assert says(found, "recorded at the same time: corrected") == (offset > 1.0)
 
 
 def wandering(seconds, scatter=0.0, rate=400.0):
@@ -176,7 +176,7 @@ def test_a_rate_that_wanders_smoothly(coarse, logged):
         near = np.abs(found.spectra.frequency - tone) <= 2.0
         level = {8.0: 0.5, 20.0: 2.0}[tone] / np.sqrt(2.0)
         assert np.sqrt(psd[near].sum()) == pytest.approx(level, rel=0.02)
-    assert says(found, "chassis/imu: its rate wanders from 38", "to 41", "resampled, band-limited, to even instants")
+    assert says(found, "chassis/imu: its rate varies from 38", "to 41", "resampled, band-limited, to even instants")
 
 
 @pytest.mark.property

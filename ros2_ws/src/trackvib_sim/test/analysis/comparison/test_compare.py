@@ -41,7 +41,7 @@ def of(comparison, part, axis, quantity):
 def test_ratios_are_as_large_as_they_were_made():
     """Levels 1.5 fold, transmissibility 0.6 fold, in all bands; the intervals hold them and are narrow."""
     found = compared(drive(1), drive(2, 1.5, 0.3))
-    assert found.aligned_by == "none" and any("statistics of all that counts" in note for note in found.notes)
+    assert found.aligned_by == "none" and any("statistics of all time that counts" in note for note in found.notes)
     for part, wanted in (("chassis", 1.5), ("powertrain", 0.9)):
         for quantity in ("RMS", "RMS, weighted"):
             for axis in "xyz":

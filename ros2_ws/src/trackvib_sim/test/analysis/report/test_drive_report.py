@@ -13,7 +13,7 @@ from trackvib_sim.analysis.report.sections import of_one, of_several
 from ..made_recordings import driven, made_recording
 
 MILLISECONDS = np.arange(1, 20_001)
-DRIVE = ("Along the way", "By speed", "Orders of the engine", "Campbell diagrams")
+DRIVE = ("By distance", "By speed", "Engine orders", "Campbell diagrams")
 
 
 def speed(time):
@@ -34,7 +34,7 @@ def test_a_drive_has_its_sections_and_a_steady_run_has_not(drives):
     """By speed, orders and Campbell diagrams only where a speed varies; the way is always there."""
     driving, steady = ([section.title for section in of_one(each)] for each in drives)
     assert [title for title in driving if title in DRIVE] == list(DRIVE)
-    assert [title for title in steady if title in DRIVE] == ["Along the way"]
+    assert [title for title in steady if title in DRIVE] == ["By distance"]
     compared = [section.title for section in of_several(drives, ["a", "b"])]
     assert [title for title in compared if title in DRIVE] == list(DRIVE[:3])
 

@@ -133,7 +133,7 @@ def test_gaps_are_told(report):
         ({"late": "0", "state": "finished"}, "nothing lost, nothing late, every sample answered"),
         ({"late": "3", "saturated": "2"}, "Loop: 3 late, 2 saturated."),
         ({"late": "0", "state": "failed"}, "Loop: the run failed."),
-        ({}, "Loop: the bag does not hold the simulator's counters."),
+        ({}, "Loop: the bag does not contain the simulator's counters."),
     ],
 )
 def test_loop_health_stands_at_the_top(report, told, words):
@@ -155,7 +155,7 @@ def test_heat_in_the_mounts_is_that_of_their_samples(report):
     whole = made_recording(time)
     holed = made_recording(np.delete(time, slice(4999, 5249)))._replace(mounts=whole.mounts)
     for recording in (whole, holed):
-        assert "dissipated in both mounts 80.0 J 10.0 W on average" in _words(report(recording))
+        assert "dissipated in the mounts 80.0 J 10.0 W on average" in _words(report(recording))
 
 
 @pytest.mark.property
@@ -183,7 +183,7 @@ def test_bags_are_compared_with_the_first(report):
     assert words.count("(+100.0 %)") == 5 * 6 + 8 + 6 * 6  # quantities with totals, and lines
     assert words.count("crest factor, weighted") == 1 and "(–)" not in words
     assert "controller law unknown skyhook" in words and "simulator speed 10.0 10.0" not in words
-    assert "In brackets the difference to one." in words
+    assert "In brackets: difference from one." in words
 
 
 @pytest.mark.property

@@ -51,7 +51,7 @@ def test_dry_bearings_take_force_and_oil_does_not(vehicle, rolled, changed):
 
 @pytest.mark.analytic
 def test_formulas_by_hand(vehicle):
-    """At 10 m/s, 36 km/h: 330 and 223 N a tonne; without its shoes the vehicle has 38.02 t."""
+    """At 10 m/s, 36 km/h: 330 and 223 N per tonne; without its shoes the vehicle has 38.02 t."""
     shoes = 240.0 * vehicle.tracks.shoe_mass
     assert whole_mass(vehicle) == pytest.approx(38_020.0 + shoes, rel=1e-3)
     assert list(published(1000.0, 10.0).values()) == pytest.approx([330.0, 223.0])

@@ -9,16 +9,16 @@ def clock_notes(end, clock):
     notes = []
     if clock.correction > NOTABLE * period:
         notes.append(
-            f"{end}: stamps are not even ({clock.steps}); samples are taken to be so, at {clock.rate:.7g} Hz by a "
-            f"robust line through the stamps, which are {1e3 * clock.jitter:.3g} ms RMS and "
-            f"{1e3 * clock.correction:.3g} ms at most off it, {clock.correction / period:.2g} periods"
+            f"{end}: stamps are not even ({clock.steps}); sample times are taken from a robust line through them, at "
+            f"{clock.rate:.7g} Hz; stamps deviate from it by {1e3 * clock.jitter:.3g} ms RMS and "
+            f"{1e3 * clock.correction:.3g} ms at most, {clock.correction / period:.2g} periods"
         )
     if clock.counted_by_log and notes:
         notes.append(f"{end}: the time base is the times of recording, which are steadier")
     for count, text in (
         (clock.lost, "samples are missing between others"),
-        (clock.repeated, "stamps repeat that of the sample before"),
-        (clock.disordered, "samples were put in the order of their stamps"),
+        (clock.repeated, "stamps repeat the previous one"),
+        (clock.disordered, "samples were sorted by their stamps"),
         (clock.copies, "messages are in the bag twice, duplicates left out"),
         (clock.left_out, "samples are isolated or next to lost ones, left out"),
     ):

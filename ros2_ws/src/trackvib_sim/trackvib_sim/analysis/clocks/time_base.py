@@ -121,13 +121,13 @@ def _by_one_clock(chassis, powertrain):
         shift = drift * (at - at[0])
         notes.append(
             f"powertrain/imu: by the times at which messages were recorded its clock runs {1e6 * drift:+.4g} ppm "
-            f"against that of chassis/imu ({total / NANO:+.3g} s in all): taken back"
+            f"against that of chassis/imu ({total / NANO:+.3g} s in all): corrected"
         )
     if powertrain.stamp[0] > chassis.stamp[-1] or powertrain.stamp[-1] < chassis.stamp[0]:
         shift = shift + middle
         notes.append(
             f"powertrain/imu: its stamps are {middle / NANO:+.6g} s from those of chassis/imu, recorded at the same "
-            "time: taken back"
+            "time: corrected"
         )
     if not notes:
         return powertrain, []

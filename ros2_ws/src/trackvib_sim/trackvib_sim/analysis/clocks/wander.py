@@ -44,8 +44,8 @@ def at_even_instants(inertial, end):
     )
     lowest, highest = _rates(stamp, parts)
     note = (
-        f"{end}: its rate wanders from {lowest:.4g} to {highest:.4g} Hz, and stamps leave even ones by up to "
-        f"{off / NANO:.3g} s, {off / period:.3g} periods: resampled, band-limited, to even instants at "
+        f"{end}: its rate varies from {lowest:.4g} to {highest:.4g} Hz, and stamps deviate from even ones by "
+        f"up to {off / NANO:.3g} s, {off / period:.3g} periods: resampled, band-limited, to even instants at "
         f"{NANO / period:.6g} Hz"
     )
     return found, [note]

@@ -43,7 +43,7 @@ class Comparison:
 
     measured: str  # path
     simulated: str
-    aligned_by: str  # "speed", "distance", or "none": statistics of all that counts
+    aligned_by: str  # "speed", "distance", or "none": statistics of all time that counts
     confidence: float
     windows: tuple  # how many of each drive are compared
     band: tuple  # Hz
@@ -76,7 +76,7 @@ def compare(recordings, analyses, align=AUTO, interval=50.0, speed_band=SPEED_BA
     aligned_by, strata, weights = _strata(windows, align, interval, speed_band)
     if aligned_by == NOT and align == AUTO:
         notes.append(
-            "the speeds of the drives do not overlap or are unknown: statistics of all that counts are compared"
+            "the speeds of the drives do not overlap or are unknown: statistics of all time that counts are compared"
         )
     results = []
     for found, stratum in zip(windows, strata, strict=True):

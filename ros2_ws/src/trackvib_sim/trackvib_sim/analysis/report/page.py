@@ -36,7 +36,7 @@ def write_report(report_data_list, path, first=()):
     figures = {}
     placed = [section._replace(figures=[_place(figure, figures) for figure in section.figures]) for section in sections]
     text = _environment().get_template("page.html.j2").render(
-        title=facts.headline(report_data_list[0]) if single else f"{len(report_data_list)} runs side by side",
+        title=facts.headline(report_data_list[0]) if single else f"{len(report_data_list)} runs compared",
         runs=[_run(name, report_data) for name, report_data in zip(names, report_data_list, strict=True)],
         tiles=tiles(report_data_list[0].analysis) if single else [],
         sections=placed,

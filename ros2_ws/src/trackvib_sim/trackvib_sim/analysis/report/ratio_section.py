@@ -12,14 +12,14 @@ from .tables import Table, number
 
 _COLOURS = {**SENSOR_COLOURS, THROUGH: "#b0508f"}
 _METHOD = (
-    "Ratios are simulated over measured, with intervals of {confidence:.0%} confidence: by the jackknife over groups "
-    "of windows (2 s, Hann, half overlapping; {windows[0]} measured, {windows[1]} simulated) and Student's t on "
-    "logarithms, degrees of freedom by Welch and Satterthwaite. {aligned}"
+    "Ratios are simulated over measured, with {confidence:.0%} confidence intervals. These come from the jackknife over "
+    "groups of windows (2 s, Hann, 50 % overlap; {windows[0]} measured, {windows[1]} simulated) and Student's t on "
+    "logarithms, with degrees of freedom by Welch and Satterthwaite. {aligned}"
 )
 _ALIGNED = {
-    "speed": "Windows are those of bands of speed that both drives have, weighted as the measured drive has them.",
-    "distance": "Windows are those of intervals of the way that both drives have.",
-    "none": "The drives are not aligned: statistics of all that counts.",
+    "speed": "Windows are compared in the speed bands that both drives contain, weighted as in the measured drive.",
+    "distance": "Windows are compared in the distance intervals that both drives contain.",
+    "none": "The drives are not aligned: statistics of all time that counts.",
 }
 
 

@@ -22,19 +22,17 @@ from .thinning import MOST
 _WEIGHTED = "Weighted: ISO 2631-1, Wk along z, Wd along x and y."
 _WELCH = (
     "Welch's method, windows of 1 s. Dotted: links entering the sprockets, v/p and multiples. "
-    "Dashed: orders of the engine"
+    "Dashed: engine orders"
 )
 _PARTS = (
-    "Vertical z: RMS, and the power that a driver sitting there would absorb (dotted: 6 W, which is taken as the limit "
-    "of ride)."
+    "Vertical z: RMS, and the power that a driver sitting there would absorb (dotted: 6 W, the usual ride limit)."
 )
 _ORDERS = (
-    "Vertical z. Spectra over turns of the engine in dB re 1 (m/s²)²/order, by its speed, and RMS in a band about each "
-    "order."
+    "Vertical z. Order spectra in dB re 1 (m/s²)²/order by engine speed, and RMS in a band about each order."
 )
 _CAMPBELL = (
     "Vertical z, level in dB re 1 (m/s²)²/Hz by speed. Dotted: links entering the sprockets, v/p and multiples. "
-    "Dashed: orders of the engine."
+    "Dashed: engine orders."
 )
 _STAMPS = "Stamps, not times of recording, are the time base."
 _LEVEL = "Level in dB re 1 (m/s²)²/Hz, windows of 0.5 s. Empty where samples are missing."
@@ -56,12 +54,12 @@ def of_one(report_data):
     sections = [
         Section(
             "Numbers",
-            "Both sensors sit at the ends of the MR mounts. Changes are those from chassis to powertrain; part of them "
-            f"is geometry, because the ends move differently on rigid mounts, too. {_WEIGHTED}",
+            "The sensors are at the two ends of the MR mounts. Changes are from chassis to powertrain. Part of them is "
+            f"geometry, because the two ends would move differently even on rigid mounts. {_WEIGHTED}",
             [],
             [tables.accelerations(analysis), tables.further(analysis)],
         ),
-        Section("Along the way", _PARTS, [speed_figures.by_way(analysis)], []),
+        Section("By distance", _PARTS, [speed_figures.by_way(analysis)], []),
         Section("By speed", _PARTS, [speed_figures.by_speed(analysis)], [tables.by_speed(analysis)]),
         Section(
             "Histories",
@@ -74,7 +72,7 @@ def of_one(report_data):
         Section(
             "Link passing and engine orders", "RMS in m/s² in a band about each line.", [], [tables.lines(analysis)]
         ),
-        Section("Orders of the engine", _ORDERS, order_figures.of_sensors(analysis), [], 2),
+        Section("Engine orders", _ORDERS, order_figures.of_sensors(analysis), [], 2),
         Section("Campbell diagrams", _CAMPBELL, order_figures.campbells(analysis), [], 2),
         Section(
             "Spectrograms",
@@ -85,8 +83,8 @@ def of_one(report_data):
         ),
         Section(
             "Mounts",
-            "Vertical, in the hull's axes. Grey: where the mount was, darker where longer. Line: the second about its "
-            "greatest travel.",
+            "Vertical, in the hull's axes. Grey: positions of the mount, darker where it stayed longer. Line: the second "
+            "about its largest travel.",
             bag_figures.mount_loops(report_data),
             [tables.mounts(analysis)],
             2,
@@ -103,15 +101,15 @@ def of_several(report_data_list, names):
     settings = tables.Table(("node", "parameter", *names), differing(report_data_list), 2 + len(names))
     sections = [
         Section(
-            "What differs between the runs", "Parameters of the nodes, entries of the vehicle files.", [], [settings]
+            "What differs between the runs", "Parameters of the nodes and entries of the vehicle files.", [], [settings]
         ),
         Section(
             "Numbers",
-            f"In brackets the difference to {names[0]}. {_WEIGHTED}",
+            f"In brackets: difference from {names[0]}. {_WEIGHTED}",
             [comparison_figures.rms_bars(report_data_list, names)],
             [*comparison_tables.accelerations(analyses, names), *comparison_tables.mounts(analyses, names)],
         ),
-        Section("Along the way", "Vertical z, RMS.", speed_figures.along_ways(report_data_list, names), [], 2),
+        Section("By distance", "Vertical z, RMS.", speed_figures.along_ways(report_data_list, names), [], 2),
         Section("By speed", "Vertical z, RMS.", speed_figures.by_speeds(report_data_list, names), [], 2),
         Section(
             "Spectra", f"{_WELCH}; both of {names[0]}.", comparison_figures.spectra(report_data_list, names), [], 3
@@ -119,12 +117,12 @@ def of_several(report_data_list, names):
         Section("From chassis to powertrain", "", comparison_figures.transmission(report_data_list, names), [], 3),
         Section(
             "Link passing and engine orders",
-            f"RMS in m/s² in a band about each line. In brackets the difference to {names[0]}.",
+            f"RMS in m/s² in a band about each line. In brackets: difference from {names[0]}.",
             [],
             comparison_tables.lines(analyses, names),
         ),
         Section(
-            "Orders of the engine",
+            "Engine orders",
             "Powertrain, vertical z: RMS in a band about each order.",
             order_figures.of_powertrains(report_data_list, names),
             [],
@@ -145,7 +143,7 @@ def of_several(report_data_list, names):
         ),
         Section(
             "Mounts",
-            "Vertical, in the hull's axes: the second about each mount's greatest travel.",
+            "Vertical, in the hull's axes: the second about the largest travel of each mount.",
             comparison_figures.mount_loops(report_data_list, names),
             [],
             2,
@@ -171,12 +169,12 @@ def tiles(analysis):
         for words, value, first in found
     ]
     if isfinite(power := analysis.absorbed_power["chassis"]):
-        tiles.append(("absorbed power, chassis z", tables.number(power, 3), "W", f"limit of ride: {RIDE_LIMIT:g} W"))
+        tiles.append(("absorbed power, chassis z", tables.number(power, 3), "W", f"ride limit: {RIDE_LIMIT:g} W"))
     if analysis.mounts:
         energy = sum(mount.energy_dissipated for mount in analysis.mounts.values())
         power = sum(mount.power_dissipated for mount in analysis.mounts.values())
         remark = f"{tables.number(power, 3)} W on average"
-        tiles.append(("dissipated in both mounts", tables.number(energy, 3), "J", remark))
+        tiles.append(("dissipated in the mounts", tables.number(energy, 3), "J", remark))
     return tiles
 
 
@@ -184,7 +182,7 @@ def _about_histories(analyses, grey):
     """Return what the histories of some bags show, and what is grey there."""
     words = ["Specific force as recorded, +g along z at rest."]
     if any(timing.samples > MOST for analysis in analyses for timing in _of_sensors(analysis)):
-        words.append("Of long bags the least and the greatest value of each part is drawn.")
+        words.append("For long bags the least and the greatest value of each part are drawn.")
     return " ".join([*words, f"Grey: {grey}."])
 
 

@@ -9,7 +9,7 @@ from ..numbers import SENSORS
 from .comparison_figures import overlay
 from .figure_style import SENSOR_COLOURS, line, styled
 
-_WAY = "way, m"
+_DISTANCE = "distance, m"
 _SPEED = "speed, m/s"
 
 
@@ -17,7 +17,7 @@ def by_way(analysis):
     """RMS, absorbed power and speed over the way; None of a bag with less than two intervals."""
     if len(analysis.by_way) < 2:
         return None
-    figure = _levels(analysis.by_way, _WAY, 3)
+    figure = _levels(analysis.by_way, _DISTANCE, 3)
     figure.add_trace(line(_stairs(analysis.by_way, lambda part: part.speed), "speed", "#808080"), row=3, col=1)
     figure.update_yaxes(title_text=_SPEED, row=3, col=1)
     return styled(figure, 560)
@@ -49,7 +49,7 @@ def _levels(parts, across, rows):
 
 def along_ways(report_data_list, names):
     """RMS over the way: a figure a sensor; none of bags that all have less than two intervals."""
-    return _compared(report_data_list, names, "by_way", _WAY)
+    return _compared(report_data_list, names, "by_way", _DISTANCE)
 
 
 def by_speeds(report_data_list, names):

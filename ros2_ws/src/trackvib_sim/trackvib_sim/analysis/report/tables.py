@@ -146,7 +146,7 @@ def worries(analysis):
     if analysis.loop.get("state") == "failed":
         found.append("the run failed")
     if "late" not in analysis.loop:
-        found.append("the bag does not hold the simulator's counters")
+        found.append("the bag does not contain the simulator's counters")
     return found
 
 

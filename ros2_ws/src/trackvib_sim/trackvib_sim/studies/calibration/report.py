@@ -45,9 +45,9 @@ def _head(plan, history, rows, best, first):
 
 {len(plan.parameters)} parameters of the vehicle, fitted to {len(rows)} rows of Table 1 of [Tao2025]
 (class {named} m/s).
-RMS over {BAND[0]:g}-{BAND[1]:g} Hz during {plan.measuring:g} s, {plan.seeds} runs a row.
-Objective: rms(log(ours / paper)) over all numbers of the table, plus the rms over the speeds of how far the running
-resistance lies outside the published formulas, as a logarithm.
+RMS over {BAND[0]:g}-{BAND[1]:g} Hz during {plan.measuring:g} s, {plan.seeds} runs per row.
+Objective: rms(log(ours / paper)) over all numbers of the table, plus the rms over the speeds of the deviation of the
+running resistance from the range of the published formulas, as a logarithm.
 Search: CMA-ES, {generations} generations of {plan.population}, seed {plan.seed}.
 
 | | start | calibrated |
@@ -55,11 +55,11 @@ Search: CMA-ES, {generations} generations of {plan.population}, seed {plan.seed}
 | objective | {first.objective:.4f} | {best.objective:.4f} |
 | error factor | {_plain(error_factor(first.ratios, 1.0))} | {_plain(error_factor(best.ratios, 1.0))} |
 
-The calibrated set is candidate {best.index} of generation {best.generation}: of all whose objective is at most
-{100.0 * (ALIKE - 1.0):.0f} % above the smallest, {history.best.objective:.4f}, the one that rolls most easily. Whose
-objective is the smallest is partly luck: the standard error of one of its numbers, from the scatter among the runs of a
-row, is {_percent(best.scatter)}.
-An honest comparison is `trackvib study table1` with `vehicle.yaml`, which drives over other roads.
+The calibrated set is candidate {best.index} of generation {best.generation}: of all candidates whose objective
+is at most {100.0 * (ALIKE - 1.0):.0f} % above the smallest, {history.best.objective:.4f}, it has the lowest running
+resistance. The order of the best candidates is partly chance: the standard error of one number, from the scatter among
+the runs of a row, is {_percent(best.scatter)}.
+For a fair comparison use `trackvib study table1` with `vehicle.yaml`, which drives over other roads.
 """
 
 
@@ -82,10 +82,10 @@ def _rows(rows, best):
 def _resistance(rows, history, best, first):
     good = [each for each in history.candidates if np.isfinite(each.ratios).all()]
     table = min(good, key=lambda each: error_factor(each.ratios, 1.0), default=best)
-    lines = ["## Running resistance", "", "On level ground, over the lowest and the highest published formula.", ""]
+    lines = ["## Running resistance", "", "On level ground, relative to the lowest and the highest published formula.", ""]
     speeds = level_speeds(rows)
     lines += [_line("", *(f"{speed:g} m/s" for speed in speeds), "error factor"), "|" + "---|" * (len(speeds) + 2)]
-    named = ("start", first), ("calibrated", best), ("least objective", history.best), ("by the table alone", table)
+    named = ("start", first), ("calibrated", best), ("least objective", history.best), ("best for the table", table)
     for name, each in named:
         cells = (f"{_plain(low)}, {_plain(high)}" for low, high in each.resistance)
         lines.append(_line(name, *cells, _plain(error_factor(each.ratios, 1.0))))
@@ -96,11 +96,11 @@ def _parameters(plan, start, best, neighbours, sensitive):
     lines = [
         "## Parameters",
         "",
-        f"The set is not unique: the table gives the range that all {len(neighbours)} candidates span whose objective "
-        f"is at most {100.0 * (ALIKE - 1.0):.0f} % above the smallest.",
-        "Strength: root mean square, over all numbers of the table, of the change of the RMS when the parameter moves "
-        f"by {100.0 * PER:.0f} % of its range, from runs {100.0 * REACH:.0f} % below and above; "
-        f"noise alone gives {_percent(sensitive.noise)}. The strongest first.",
+        f"The set is not unique: *neighbours* is the range of all {len(neighbours)} candidates whose objective is at most "
+        f"{100.0 * (ALIKE - 1.0):.0f} % above the smallest.",
+        "*Strength* is the change of the RMS when the parameter changes by "
+        f"{100.0 * PER:.0f} % of its range, as root mean square over all numbers of the table, from runs "
+        f"{100.0 * REACH:.0f} % below and above; noise alone gives {_percent(sensitive.noise)}. The strongest come first.",
         "",
         "| parameter | low | high | scale | start | calibrated | near a bound | neighbours | strength |",
         "|" + "---|" * 9,
@@ -125,7 +125,7 @@ def _parameters(plan, start, best, neighbours, sensitive):
 
 
 def _sources(plan):
-    lines = ["## Where the bounds come from", ""]
+    lines = ["## Sources of the bounds", ""]
     return "\n".join([*lines, *(f"* `{each.item}`: {each.source}" for each in plan.parameters)]) + "\n"
 
 

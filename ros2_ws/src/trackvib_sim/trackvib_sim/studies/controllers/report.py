@@ -18,10 +18,10 @@ def report(rows, seeds, vehicle_name, vehicle_text):
 
 def _head(seeds, vehicle_name, vehicle_text):
     lines = "\n".join(f"* `{name}`: {what}, {unit}" for name, (what, unit) in QUANTITIES.items())
-    return f"""# Control laws beside constant currents
+    return f"""# Control laws and constant currents compared
 
-The engine shakes the powertrain by forces and moments of its orders, at {DRIVING:g} r/min where the vehicle moves.
-Means over {seeds} seeds, each with its own road and phase between the two tracks (one run where nothing varies).
+The engine excites the powertrain by forces and moments of its orders, at {DRIVING:g} r/min where the vehicle moves.
+Means over {seeds} seeds, each with its own road and phase between the two tracks (one run where nothing is random).
 Quantities:
 
 {lines}
@@ -33,14 +33,14 @@ Quantities:
 
 def _verdict(rows):
     lines = [
-        "## What is gained",
+        "## Gains",
         "",
-        "By how many percent each quantity is less (negative: more), mean ± half of the 95 % interval by Student's t",
+        "Reduction of each quantity in percent (negative: increase), mean ± half of the 95 % interval by Student's t",
         "over the seeds, every seed compared with itself; bold where the interval excludes zero. Constant current and",
-        "law are those with the least of that quantity over all seeds; the gains are those of what all other seeds",
-        "choose, so that none judges its own choice. Chance is the scatter of the means among constant currents",
-        f"from {ALIKE:g} A on, whose mounts are nearly alike: tracks amplify the smallest difference, and a gain of",
-        "that size means nothing.",
+        "law are those with the least of that quantity over all seeds; the gain of each seed is that of the choice by",
+        "all other seeds. Chance is the scatter of the means among constant currents",
+        f"from {ALIKE:g} A, whose mounts are nearly alike: tracks amplify the smallest difference, and a gain of",
+        "that size has no significance.",
         "",
         *_header("scenario", "quantity", "best constant, A", "over 1 A", "best law", "over 1 A", "over best", "chance"),
     ]
@@ -57,7 +57,7 @@ def _share(rows):
         "## What no current reaches",
         "",
         f"Vertical acceleration of the powertrain above {ABOVE_BAND:g} Hz and of the hull, RMS in m/s²: with passive",
-        f"mounts at {PASSIVE_CURRENT:g} A, part of the powertrain's mean square, from the least to the most of all.",
+        f"mounts at {PASSIVE_CURRENT:g} A, as a fraction of the powertrain's mean square, and the range of all runs.",
         "",
         *_header("scenario", f"above {ABOVE_BAND:g} Hz", "of the mean square", "least to most", "hull, least to most"),
     ]

@@ -31,19 +31,20 @@ def report(rows, factors, loads, frequencies, phases):
 
 
 def _head(phases):
-    return f"""# The M113 beside Project Chrono
+    return f"""# The M113 compared with Project Chrono
 
 Vertical acceleration of the hull at its centre of mass, RMS in m/s²: ours / theirs, and in brackets the factor between
-them; **bold** where the goal is not reached. Ours is the quadratic mean over {phases} phases between the tracks, at
-20 kHz; theirs is one run a case of 6 s. Goals:
+them; **bold** where the goal is not met. Ours is the quadratic mean over {phases} phases between the tracks, at
+20 kHz; theirs is one run of 6 s per case. Goals:
 
 * {_HIGH} within {GOALS[_HIGH]:g};
 * third octaves there within {GOALS[octave_name(THIRD_OCTAVES[0])]:g};
 * lines 1 to 3, k v/p, within {GOALS[line_name(1)]:g};
 * 0.5-5 Hz on the rough road within {ROAD_BORNE_GOAL:g};
-* the same against place correlated by more than {CORRELATION_GOAL:g}.
+* the same motion over distance correlated by more than {CORRELATION_GOAL:g}.
 
-The bands from 5 to 100 Hz, and all below 20 Hz on level ground, are no goals: that code shakes there as it stands.
+The bands from 5 to 100 Hz, and all below 20 Hz on level ground, are no goals: in that code the vehicle vibrates there
+while standing.
 """
 
 
@@ -70,8 +71,7 @@ def _phases(rows):
     lines = [
         "## Lines over the phases",
         "",
-        "Ours from the least to the greatest run / theirs, which is one run with one phase; **bold** where theirs is",
-        "not among ours.",
+        "Range of our runs / theirs, which is one run with one phase; **bold** where theirs is outside the range.",
         "",
         *_header("", *(f"{road}, {speed} m/s" for road, speed in cases)),
     ]
@@ -91,9 +91,9 @@ def _standing(rows):
     rolling = {(row.quantity, row.speed): row.theirs for row in rows if row.road == LEVEL}
     speeds = sorted({speed for _, speed in rolling})
     lines = [
-        "## What theirs shakes by as it stands",
+        "## Their vibration while standing",
         "",
-        "Third octaves standing, m/s², and what part of the mean square on level ground that is.",
+        "Third octaves while standing, m/s², and their fraction of the mean square on level ground.",
         "",
         *_header("Hz", "standing", *(f"of {LEVEL}, {speed} m/s" for speed in speeds)),
     ]
@@ -127,8 +127,8 @@ def _loads(ours, theirs):
     lines = [
         "## Static wheel loads",
         "",
-        "What a standing vehicle's wheels put on their arms, kN. Theirs by statics of that code's published masses,",
-        f"places, bars and contacts with the tension measured there. The goal is {100 * LOAD_GOAL:g} %.",
+        "Loads of the wheels on their arms, standing, kN. Theirs by statics from that code's published masses,",
+        f"positions, bars and contacts with the tension measured there. The goal is {100 * LOAD_GOAL:g} %.",
         "",
         *_header("", *stations),
         _line("ours", *(f"{each / 1e3:.2f}" for each in ours.ravel())),
@@ -146,10 +146,10 @@ def _ride(frequencies):
 
 def _variants(factors):
     lines = [
-        "## What differences come from",
+        "## Sources of differences",
         "",
-        "One thing changed at a time: levels as factors of those of the vehicle file, geometric mean over the four",
-        "cases (0.5-5 Hz and correlation: the rough road; the latter as it is), over every second phase.",
+        "Variants with one change each: levels relative to those of the vehicle file, geometric mean over the four",
+        "cases (0.5-5 Hz and correlation: the rough road; correlation as is), over every second phase.",
         "",
         *_header("variant", *FACTORS),
     ]

@@ -81,16 +81,16 @@ def _print(console, rows, factors, loads, failed, folder):
     mine = [row for row in rows if row.variant == BASE]
     names = [*dict.fromkeys(row.quantity for row in mine if row.agrees is not None), ROAD_SHARE, LINES_SHARE]
     heads = list(dict.fromkeys((row.road, row.speed) for row in mine))
-    title = "M113 beside Project Chrono, ours / theirs, RMS in m/s²; ! is beyond the goal"
+    title = "M113 and Project Chrono, ours / theirs, RMS in m/s²; ! where the goal is not met"
     by_place = {(row.quantity, row.road, row.speed): row for row in mine}
     cells = {name: [_cell(by_place.get((name, *head))) for head in heads] for name in names}
     _print_cases(console, title, heads, cells)
-    title = "Lines over the phases, ours from the least run to the greatest / theirs; ! is where theirs lies outside"
+    title = "Lines over the phases, range of our runs / theirs; ! where theirs is outside"
     lines = {name: [range_cell(by_place[(name, *head)], "{} !") for head in heads] for name in map(line_name, LINES)}
     _print_cases(console, title, heads, lines)
     carried = ", ".join(f"{each:.2f}" for each in (loads[0] / loads[1]).ravel())
     console.print(f"static wheel loads, ours / theirs, left and right from front to rear: {carried}", soft_wrap=True)
-    title = "One thing changed: levels as factors of those of the same phases, correlation as it is"
+    title = "Variants with one change: levels relative to the same phases, correlation as is"
     changed = Table("variant", title=title, title_justify="left")
     for name in FACTORS:
         changed.add_column(name, justify="right")

@@ -12,10 +12,10 @@ from .paper_figures import AXES, VERTICAL
 NEAR = 0.1  # of the frequency of link passing
 LINES_FROM = 20.0  # Hz; below it vibrate the vehicle on its suspension and the powertrain on its mounts
 SENTENCES = {
-    "road.png": "The road as it comes under both tracks, and its spectrum beside line and bounds of its class.",
-    "histories.png": "Chassis is the hull at the powertrain's rear connection, powertrain its input end, in the middle "
+    "road.png": "The road under both tracks over time, and its spectrum with line and bounds of its class.",
+    "histories.png": "Chassis is the hull at the powertrain's rear connection, powertrain its input end, midway "
     "between the mounts.",
-    "spectra.png": "Dashed: track links pass, at speed over pitch and its multiples; dotted: what the engine excites.",
+    "spectra.png": "Dashed: passing track links, at speed over pitch and its multiples; dotted: engine orders.",
     "levels.png": f"Runs of {MEASURING:g} s after settling, one for each point.",
     "solvers.png": "Both runs have the same start, road and force laws; only the solver of the body tree differs.",
 }
@@ -41,7 +41,7 @@ def report(titles, found, case, comparison, link_passing):
     link_passing : float
         Speed over pitch of that case, Hz.
     """
-    lines = ["# Figures beside those of [Tao2025]", ""]
+    lines = ["# Figures compared with [Tao2025]", ""]
     for name, title in titles.items():
         lines += [f"![{title}]({name})", "", SENTENCES[name], ""]
     for other, result in found.items():
@@ -55,9 +55,9 @@ def _levels(case, comparison):
     (first, ours), (second, theirs) = comparison.levels().items()
     yield (
         f"RMS acceleration in m/s², {case_in_words(case)}, {BAND[0]:g}-{BAND[1]:g} Hz. At every time step both solvers "
-        "got the same state and the same forces; the greatest difference of their accelerations, over the largest one, "
-        f"was **{comparison.difference:.1e}**. The runs, each with its own solver, part all the same, because contacts "
-        "amplify rounding: their statistics are to be compared."
+        "received the same state and the same forces. The greatest difference of their accelerations, relative to the "
+        f"largest one, was **{comparison.difference:.1e}**. The runs, each with its own solver, nevertheless diverge, "
+        "because contacts amplify rounding; compare their statistics."
     )
     yield ""
     yield f"| sensor | axis | {first} | {second} | difference |"

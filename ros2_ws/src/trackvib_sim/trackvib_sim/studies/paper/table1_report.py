@@ -36,7 +36,7 @@ def _head(seeds, vehicle_name, vehicle_text):
 
 RMS accelerations in m/s² over {BAND[0]:g}-{BAND[1]:g} Hz (the paper's band is unknown) during {MEASURING:g} s after
 settling, in the paper's axes: X longitudinal, Y vertical, Z lateral (ROS x, z, y). Chassis is the hull at the
-powertrain's rear connection, powertrain its input end, in the middle between the MR mounts. Engine at
+powertrain's rear connection, powertrain its input end, midway between the MR mounts. Engine at
 {ENGINE_SPEED:g} r/min, its second order imposed across the mounts; 1 A in both coils. Ours are means ± standard
 deviations over {seeds} seeds, each with its own road and its own phase between the two tracks.
 
@@ -46,7 +46,7 @@ deviations over {seeds} seeds, each with its own road and its own phase between 
 
 
 def _levels(rows, paper):
-    lines = ["## Levels", "", "Ours ± scatter, and in brackets the paper's where they are given.", ""]
+    lines = ["## Levels", "", "Ours ± scatter, and in brackets the values of the paper where available.", ""]
     lines += _header("class", "m/s", *_NAMES, "error factor", "status")
     for row in rows:
         theirs = paper.get((row.road_class, row.speed), [None] * 6)
@@ -56,7 +56,7 @@ def _levels(rows, paper):
         lines.append(_line(row.road_class, f"{row.speed:g}", *cells, factor, row.status))
     outside = [f"{row.road_class} at {row.speed:g} m/s" for row in rows if row.status != GOOD]
     if outside:
-        lines += ["", f"Outside the valid range, or partly so: class {', '.join(outside)}."]
+        lines += ["", f"Partly or wholly outside the valid range: class {', '.join(outside)}."]
     return "\n".join(lines) + "\n"
 
 
@@ -71,15 +71,15 @@ def _comparison(ours, paper, predictions):
     lines = [
         "## Comparison",
         "",
-        f"Error factor exp(rms(log(ours / paper))) over the {len(ours)} rows that both have: "
+        f"Error factor exp(rms(log(ours / paper))) over the {len(ours)} common rows: "
         f"**{error_factor(ours, paper):.3f}**. By column:",
         "",
         *_header("", *_NAMES),
         _line("error factor", *(f"{error_factor(*each):.3f}" for each in zip(ours.T, paper.T, strict=True))),
         _line("bias, geometric mean of ours / paper", *(f"{bias:.3f}" for bias in column_bias(ours, paper))),
         "",
-        "For scale, models that know the speed alone, fitted to the rows that the paper gives. In the second column",
-        "each road class is foretold by what was fitted, or calibrated, without it.",
+        "For comparison: models that know only the speed, fitted to the rows of the paper. In the second column",
+        "each road class is predicted by models fitted, or calibrated, without it.",
         "",
         *_header("", "fitted to them", "classes left out"),
         *(_line(each.name, *(f"{value:.3f}" if np.isfinite(value) else "-" for value in each[1:]))
@@ -92,8 +92,8 @@ def _reductions(rows, paper):
     lines = [
         "## Powertrain against chassis",
         "",
-        "By how many percent the powertrain's level lies below the chassis's (negative: above): with our mounts,",
-        "with rigid ones (the hull's own point at the powertrain's sensor: what its place alone gives), in the paper.",
+        "Powertrain level below the chassis level in percent (negative: above): with our mounts, with rigid mounts",
+        "(the hull's own point at the powertrain's sensor, the effect of position alone), and in the paper.",
         "",
     ]
     kinds = ("ours", "rigid", "paper")

@@ -23,7 +23,7 @@ def resistance_picture(found, mass, title, file):
         plot.plot(speed, drive, "k.-", label="at the sprockets")
         for style, name in zip(("--", ":"), published(mass, 1.0), strict=True):
             theirs = np.array([published(mass, v)[name] for v in speed]) * (speed / of_speed) / KILO
-            plot.plot(speed, theirs, f"k{style}", label=f"formula {name} N a tonne")
+            plot.plot(speed, theirs, f"k{style}", label=f"formula {name} N per tonne")
         plot.set_xlabel("speed, m/s")
         plot.set_ylabel(unit)
         plot.set_ylim(bottom=0.0)
