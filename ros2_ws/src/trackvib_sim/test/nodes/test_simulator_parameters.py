@@ -44,7 +44,7 @@ def test_defaults_make_a_simulation(vehicle):
         ({("tracks", "links"): 130}, ("tracks.links x tracks.pitch is 14.950 m", "tensioners.travel of 0.1 m")),
         ({("ground", "stiffness"): 1e3, ("ground", "damping"): 0.0}, ("cannot roll at 10 m/s", "vehicle file")),
         ({("bodies", "turret", "inertia"): [8500.0, 11000.0, 30000.0]}, ("body 5 (turret)", "sum of the other two")),
-        ({("coil", "delay"): 1.5e-4}, ("coil.delay is 0.00015 s", "whole number of physics steps of 0.0001 s")),
+        ({("coil", "delay"): 1.3e-7}, ("coil.delay is 1.3e-07 s", "whole number of physics steps of 0.0002 s")),
         ({("hull", "mass"): -1.0}, ("'vehicle_file'", "hull.mass is -1.0", "greater than 0")),
     ],
 )

@@ -78,6 +78,13 @@ def test_recommended_rate_suits_the_control_rate(vehicle, control):
 
 
 @pytest.mark.property
+@pytest.mark.parametrize(("delay", "rate"), [(1e-3, 5000), (5e-4, 8000), (1.5e-4, 20_000), (1.3e-7, 5000)])
+def test_recommended_rate_suits_the_delay_of_the_coils(changed, delay, rate):
+    """It is the lowest that divides the delay into whole steps; for a delay that none divides it is as without."""
+    assert recommended_rate(changed("coil", delay=delay)) == rate
+
+
+@pytest.mark.property
 @pytest.mark.parametrize("name", vehicle_names())
 def test_library_steps_twice_as_finely_as_vehicles_need(name):
     """The rate by default of the library and of studies leaves room to spare with every vehicle that is included."""

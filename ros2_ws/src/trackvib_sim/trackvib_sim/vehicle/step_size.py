@@ -8,6 +8,7 @@ from math import sqrt
 from typing import NamedTuple
 
 from ..numerics.units import NANO
+from .coil import delay_fits
 
 # rad, the most that the fastest motion may advance in a step. Up to it no RMS changes by 5 % with a finer step, nor does
 # a third octave up to 315 Hz by 10 % (bench/step_accuracy.py); beyond it steps soon come near the longest stable one.
@@ -58,12 +59,12 @@ def recommended_rate(vehicle, control=KILO):
     """Return the rate of physics steps [Hz] from which on the result hardly depends on it.
 
     The fastest undamped motion advances by `NEEDED` per step at most, and the step keeps clear of the longest stable
-    one. The rate is a whole number of kHz that divides a second into whole nanoseconds, as rates must, and a multiple
-    of the control rate [Hz] where there is such a one.
+    one. The rate is a whole number of kHz that divides a second into whole nanoseconds, as rates must; where there is
+    such a one, it is a multiple of the control rate [Hz] and divides the coils' delay into whole steps.
     """
     needed = max(fastest_contact(vehicle)[1] / NEEDED, CLEAR / longest_step(vehicle))
     enough = [rate for rate in RATES if rate >= needed] or RATES[-1:]
-    return next((rate for rate in enough if rate % control == 0), enough[0])
+    return next((rate for rate in enough if rate % control == 0 and delay_fits(vehicle, 1.0 / rate)), enough[0])
 
 
 def _longest(tracks, contact):
