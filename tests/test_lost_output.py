@@ -47,9 +47,7 @@ def test_a_terminal_that_breaks_off_costs_no_results(recorded_run, env, tmp_path
     )
     os.close(writer)
     assert done.returncode == 1
-    assert (
-        one_error(done.stderr) == "error: standard output cannot be written: Broken pipe; files are written nevertheless\n"
-    )
+    assert one_error(done.stderr) == "error: standard output cannot be written: Broken pipe; all files are written\n"
     files = {path.name for path in (tmp_path / "out").iterdir()}
     assert (
         files

@@ -12,7 +12,7 @@ GROUP = "mr_mount_controller.laws"
 
 
 def known_laws() -> list[str]:
-    """Return the names of the laws that installed packages offer, sorted.
+    """Return the sorted names of the laws in all installed packages.
 
     Examples
     --------
@@ -24,7 +24,7 @@ def known_laws() -> list[str]:
 
 
 def shipped_laws() -> list[str]:
-    """Return the names of the laws of this package, not a user's, sorted.
+    """Return the sorted names of the laws in this package, without those of users.
 
     Examples
     --------

@@ -11,11 +11,10 @@ from ..node_base.parameters import ParameterError
 
 
 class Sample(NamedTuple):
-    """What both inertial sensors read at the end of a period, in the axes of their bodies (x forward, y left, z up).
+    """The readings of both inertial sensors at the end of a period, in axes of their bodies (x forward, y left, z up).
 
-    Specific force is acceleration less gravity (REP-145): +9.81 m/s^2 along z at rest. Where the mounts are from there
-    tells `ControlLaw.mounting`. All are plain floats and finite; what is faster
-    than the sensors' low-pass is gone.
+    Specific force is acceleration less gravity (REP-145): +9.81 m/s^2 along z at rest. `ControlLaw.mounting` has the
+    positions of the mounts relative to the sensors. All values are plain, finite floats, after the sensors' low-pass.
 
     Examples
     --------
@@ -46,53 +45,52 @@ class LawError(RuntimeError):
 class ControlLaw:
     """Base class of control laws.
 
-    A law turns each sample of the accelerations into the currents that the mounts' coils shall carry from that sample
-    on. A subclass must have `update`; it may declare `parameters`, and extend `reset` and `__init__`. The same class
-    runs on the controller node, in the loop in one process and in studies, none of which it can tell apart.
+    A law turns each sample of the accelerations into the currents of the mounts' coils from that sample on. A
+    subclass must have `update`; it may declare `parameters`, and extend `reset` and `__init__`. The same class runs on
+    the controller node, in the loop in one process and in studies, and cannot distinguish them.
 
     Attributes
     ----------
     parameters : tuple of mr_mount_controller.node_base.parameters.Parameter
         Class attribute: name, default, description, unit and range of each, in the order in which documents list them.
-        The node declares them as its own ROS parameters, from which come their checks and what `ros2 param describe`
-        says; `docs/controllers.md` is made from the same. A name must be a Python identifier, other than `law`,
-        `sample_rate`, `coils` and `wait_for_recorder`, which are the node's own, and than the attributes here.
+        The node declares them as ROS parameters with these checks and descriptions, and the table in
+        `docs/controllers.md` is generated from them. A name must be a Python identifier. It must differ from `law`,
+        `sample_rate`, `coils` and `wait_for_recorder`, which belong to the node, and from the attributes here.
     period : float
-        Sampling period [s], from `__init__` on. A law must work at any from 0.1 ms to 0.1 s, if not well at all.
+        Sampling period [s], set by `__init__`. A law must run at any from 0.1 ms to 0.1 s, though not equally well.
     mounting : mr_mount_controller.mounting.Mounting
         The mounts by name, kind and place, the number of coils, and how the powertrain can turn on them. Before
         `run_on` is called it is the pair of [Tao2025]. A law must work for 0 to 16 coils.
 
     and one attribute for each parameter, with its value.
 
-    What whoever runs a law promises
-    --------------------------------
-    * `__init__(period, **values)` is called once, with a value of the default's type within its range for each
-      parameter, or without where the default shall be taken. A subclass that has to prepare extends it: it calls
-      `super().__init__(period, **values)` first, which sets the attributes and calls `reset`. Values that do not go
-      together it refuses with `ParameterError`; the node then ends with that message.
-    * `reset()` is called at the end of the base class's `__init__`, hence before a subclass's own `__init__` goes on,
-      and again whenever the time of the samples starts anew, or `mounting` changes.
-    * Parameters may change during a run. Another law of the class is then made with the new values, `run_on` gives it
-      the mounts, and `continue_from(earlier)` the law that ran so far; it answers from the next sample on. Values that
-      its `__init__` refuses are refused to whoever wanted them, and the earlier law goes on.
-    * `update(sample)` is called once for each sample, in order of time. Samples are one period apart; should one be
-      lost, the next comes all the same, its time tells, and the node counts the gap. All calls come from one thread,
-      none before `reset`.
+    What a law can rely on
+    ----------------------
+    * `__init__(period, **values)` is called once. Each value has the type of its default and is within its range; a
+      missing value means the default. A subclass may extend it: it calls `super().__init__(period, **values)` first,
+      which sets the attributes and calls `reset`. It refuses an invalid combination of values with `ParameterError`;
+      the node then ends with that message.
+    * `reset()` is called at the end of the base class's `__init__`, hence before the rest of a subclass's own
+      `__init__`, and again whenever the time of the samples restarts, or `mounting` changes.
+    * Parameters may change during a run. Another law of the class is then created with the new values; `run_on` gives
+      it the mounts, and `continue_from(earlier)` the previous law. It answers from the next sample on. If its
+      `__init__` refuses the values, the change is refused and the previous law continues.
+    * `update(sample)` is called once for each sample, in order of time. Samples are one period apart; if one is lost,
+      the next one still comes, its time shows the gap, and the node counts it. All calls come from one thread, none
+      before `reset`.
 
     What a law must do
     ------------------
     * `update` returns one finite current [A] for all coils, or as many as there are coils, in their order: floats,
-      ints, or a numpy array of them. Any finite value will do: the driver cuts it to its limits (0 to 5 A on the
-      vehicle that comes with trackvib) and the mounts use 0.7 to 4 A, and what is cut is counted. Anything else ends
-      the run with `LawError`.
-      The current takes some 8 ms to build up in the coil.
-    * `update` answers soon. In lock-step the simulator waits for it, in real time a late answer is used late: at 1 kHz
-      some 0.1 ms are at hand, the laws here take less than some 10 us.
-    * After `reset` the law behaves as if just made; memory is best set up there.
-    * The same samples give the same currents, to the last bit, wherever the law runs. So it must not look at a clock,
-      draw unseeded random numbers, start threads, read files in `update`, or depend on the order of a set.
-    * It may keep whatever it likes in `self`, and must not change the sample, its class or its module.
+      ints, or a numpy array of them. Any finite value is valid: the driver limits it (0 to 5 A on the default
+      vehicle), the mounts use 0.7 to 4 A, and limited values are counted. Anything else ends the run with `LawError`.
+      The current takes about 8 ms to build up in the coil.
+    * `update` returns quickly. In lock-step the simulator waits for it; in real time a late answer is used late. At
+      1 kHz about 0.1 ms are available; the laws here take less than about 10 us.
+    * After `reset` the law behaves like a new one; `reset` is the best place to initialise memory.
+    * The same samples give the same currents, to the last bit, wherever the law runs. It must therefore not read a
+      clock, draw unseeded random numbers, start threads, read files in `update`, or depend on the order of a set.
+    * It may keep anything in `self`, but must not change the sample, its class or its module.
     * It need not catch exceptions: one that `update` raises ends the node with a traceback.
 
     See Also
@@ -125,17 +123,17 @@ class ControlLaw:
         self.reset()
 
     def run_on(self, mounting):
-        """Begin anew on the mounts of a `mounting.Mounting`."""
+        """Restart on the mounts of a `mounting.Mounting`."""
         self.mounting = mounting
         self.reset()
 
     def reset(self):
-        """Forget the past."""
+        """Reset the memory."""
 
     def continue_from(self, earlier):
         """Take over the memory of a law of this class with other parameters, as far as it holds for these.
 
-        By default nothing, as after `reset`: right for every law, if not smooth for those that remember much.
+        By default nothing, as after `reset`: correct for every law, though not smooth for those with a long memory.
         """
 
     def update(self, sample: Sample) -> float | Sequence[float] | np.ndarray:

@@ -20,7 +20,7 @@ class ParameterError(ValueError):
 
 @dataclass(frozen=True)
 class Parameter:
-    """A named value of the type of its default; a whole number does for any number.
+    """A named value of the type of its default; a whole number is valid for any number.
 
     Numbers lie in [low, high]; strings, where `choices` is given, are one of them.
 
@@ -79,7 +79,7 @@ class Parameter:
         return value
 
     def converted(self, value):
-        """Return a whole number as the floating-point number that is meant, all else as it is."""
+        """Return a whole number as a floating-point number where the default is one, all else unchanged."""
         if isinstance(self.default, float) and type(value) is int and abs(value) <= _WHOLE:
             return float(value)
         return value

@@ -51,7 +51,7 @@ def test_sensors_of_different_rates(tmp_path, rates):
     for axis, frequency in ((0, 10), (1, 12), (2, 30), (2, 15)):
         assert analysis.spectra.transmissibility[frequency, axis] == pytest.approx(0.5, rel=5e-3)
         assert analysis.spectra.coherence[frequency, axis] > 0.999
-    assert any("each has numbers of its own rate" in note for note in analysis.notes)
+    assert any("each has numbers at its own rate" in note for note in analysis.notes)
 
 
 @pytest.mark.analytic

@@ -41,16 +41,16 @@ def analyse(
     settle : float, optional
         Time from the start that does not count, `SHORTEST_SETTLING` or more, s; by default `settling_of`.
     on_progress : callable
-        Is told now and then how many samples of how many have been looked at.
+        Called from time to time with the number of samples done and their total number.
     interval : float
-        Length of the intervals of way that numbers are given by, m.
+        Length of the distance intervals, m.
     speed_band : float
-        Width of the bands of speed, likewise, m/s.
+        Width of the speed bands, m/s.
 
     Raises
     ------
     TooShort
-        No segment without gaps leaves a second to be measured.
+        No segment without gaps leaves a second for measurement.
     ValueError
         The settling time is too short, an interval or a band is not above 0, the sensors differ in their rates, or
         their stamps cannot be a time base.

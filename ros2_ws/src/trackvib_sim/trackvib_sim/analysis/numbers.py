@@ -229,7 +229,7 @@ class History:
 
 @dataclass(frozen=True)
 class Analysis:
-    """A bag in numbers. "From the start" means from one period before its first sample, 0 of a whole run.
+    """The numbers of a bag. "From the start" means from one period before its first sample, 0 of a whole run.
 
     Examples
     --------

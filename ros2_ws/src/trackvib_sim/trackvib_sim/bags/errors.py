@@ -9,5 +9,5 @@ class BagError(RuntimeError):
     >>> import trackvib_sim as tv
     >>> tv.read_recording("nowhere")
     Traceback (most recent call last):
-    trackvib_sim.bags.errors.BagError: bag 'nowhere' is not there
+    trackvib_sim.bags.errors.BagError: bag 'nowhere' does not exist
     """

@@ -51,15 +51,15 @@ def read_recording(
     time: str = HEADER_TIME,
     sources: Sources = Sources(),  # noqa: B008, never changes
 ) -> Recording:
-    """Return the `Recording` in a bag, a folder with MCAP files or one such file, as far as it goes.
+    """Return the `Recording` of a bag, a folder with MCAP files or one such file, as far as it is readable.
 
-    Topics are found by the ends of their names. Of several that end alike the one beside the sensors counts.
+    Topics are found by the ends of their names. Of several with the same end, the one in the sensors' namespace counts.
 
     Parameters
     ----------
     path : path
     on_progress : callable
-        Is told now and then how many bytes of how many have been read.
+        Called from time to time with the number of bytes read and their total number.
     time : str
         Which times are the stamps: "header", those in the messages, or "log", those at which they were recorded.
     sources : Sources

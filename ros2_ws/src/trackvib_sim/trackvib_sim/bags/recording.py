@@ -90,7 +90,7 @@ class LoopCounts(NamedTuple):
 
 
 class Recording(NamedTuple):
-    """A run as its bag tells it; optional topics that are not in the bag are None.
+    """The contents of a bag; optional topics that are not in the bag are None.
 
     Examples
     --------

@@ -52,4 +52,4 @@ def lasting_output():
         sys.stdout.flush()
         sys.stdout = before
     if output.failure is not None:
-        raise OutputLost(f"standard output cannot be written: {output.failure.strerror}; files are written nevertheless")
+        raise OutputLost(f"standard output cannot be written: {output.failure.strerror}; all files are written")

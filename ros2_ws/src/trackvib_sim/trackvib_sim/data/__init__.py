@@ -7,7 +7,7 @@ DEFAULT_VEHICLE = "tao2025"
 
 
 def vehicle_names() -> list[str]:
-    """Return the names of the vehicles that come with the package, the default one first.
+    """Return the names of the included vehicles, the default one first.
 
     Examples
     --------
@@ -20,10 +20,10 @@ def vehicle_names() -> list[str]:
 
 
 def find_vehicle(name: str | Path | None = None) -> Path:
-    """Return the path of a vehicle that comes with the package by name, or a path as it is.
+    """Return the path of an included vehicle by its name, or a given path unchanged.
 
-    Without a name it is the default vehicle's. A file is preferred to a vehicle of the same name if it is written with
-    a folder or an ending.
+    Without a name it is the path of the default vehicle. A text with a folder or an extension is a file, even if a
+    vehicle has the same name.
 
     Examples
     --------

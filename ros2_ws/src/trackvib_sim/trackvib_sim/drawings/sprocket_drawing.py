@@ -42,7 +42,7 @@ def _places(radius, angle):
 
 def sprocket_entry(plot, assembled, labels):
     """Draw where pins enter the left sprocket of an `AssembledVehicle` that drives forwards."""
-    drawing(plot, "How pins enter the sprocket, teeth as their centres feel them, mm")
+    drawing(plot, "Pins entering the sprocket, tooth outline for pin centres, mm")
     s, hub = assembled.sprockets, assembled.hub[sprocket_name(LEFT)]
     pins = (assembled.pins[LEFT] - hub)[:, [0, 2]]
     distance, share = np.hypot(*pins.T), 2.0 * np.pi / s.teeth

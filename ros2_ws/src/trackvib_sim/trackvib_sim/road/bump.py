@@ -9,7 +9,7 @@ from .iso8608 import SPACING
 
 @dataclass(frozen=True)
 class Bump:
-    """Level but for one raised cosine, height / 2 (1 - cos(2 pi x / length)), that begins at distance `start`.
+    """A level road with one raised cosine, height / 2 (1 - cos(2 pi x / length)), that begins at distance `start`.
 
     Examples
     --------

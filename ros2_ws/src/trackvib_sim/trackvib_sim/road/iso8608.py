@@ -31,7 +31,7 @@ LEVEL_UNTIL, FADE = 8.0, 8.0  # m, by default: a vehicle starts on level ground,
 
 
 class Roughness(NamedTuple):
-    """A displacement PSD as [ISO8608] writes it, G_d(n) = level (n / n0)^-waviness within a band.
+    """A displacement PSD as in [ISO8608], G_d(n) = level (n / n0)^-waviness within a band.
 
     Examples
     --------
@@ -57,7 +57,7 @@ class Roughness(NamedTuple):
 
 
 def roughness_of(road_class: str) -> Roughness:
-    """Return the `Roughness` of one of the standard's classes, its geometric mean.
+    """Return the `Roughness` of a class of the standard, its geometric mean.
 
     Examples
     --------
@@ -70,7 +70,7 @@ def roughness_of(road_class: str) -> Roughness:
 
 @dataclass(frozen=True)
 class Isotropic:
-    """Coherence |G_lr| / sqrt(G_ll G_rr) of two lines on a surface that is alike in all directions.
+    """Coherence |G_lr| / sqrt(G_ll G_rr) of two parallel lines on an isotropic surface.
 
     Examples
     --------
@@ -107,13 +107,13 @@ class Exponential:
 
 @dataclass(frozen=True)
 class Iso8608Road:
-    """A random road of one class, or of a roughness of one's own, without end.
+    """An endless random road of one class, or of a given `Roughness`.
 
-    It is level up to `level_until` from its beginning, then faded in over `fade` [m], and so it is behind the
-    beginning.
+    It is level up to `level_until` from its beginning, then the roughness fades in over `fade` [m]. The same holds
+    behind the beginning.
 
-    Sample i lies at distance i * `spacing`. Harmonics lie one in each of `HARMONICS` logarithmic bands, at a random
-    place of it, so that the profile has no period.
+    Sample i is at the distance i * `spacing`. Each of `HARMONICS` logarithmic bands contains one harmonic at a random
+    frequency, so that the profile has no period.
 
     Examples
     --------
@@ -136,13 +136,13 @@ class Iso8608Road:
 
     @property
     def begins(self) -> float:
-        """Distance from which the road has all of its roughness [m]."""
+        """Distance from which the road has its full roughness [m]."""
         return self.level_until + self.fade
 
     def heights(self, first: int, count: int) -> np.ndarray:
         """Return the heights (2, count) [m], left and right, of the samples `first` ... `first + count - 1`.
 
-        The result for a sample does not depend on which patch it is asked in, to the last bit.
+        The result for a sample does not depend on the requested patch, to the last bit.
         """
         heights = np.empty((2, count))
         _superpose(heights, first, self.spacing, *self._harmonics, self.level_until, self.fade)

@@ -167,7 +167,7 @@ class ObstacleRoad:
 
     @property
     def begins(self) -> float:
-        """Distance from which the ground has all of its roughness [m]."""
+        """Distance from which the ground has its full roughness [m]."""
         return self.ground.begins
 
     @property
@@ -188,7 +188,7 @@ class ObstacleRoad:
 
 @dataclass(frozen=True)
 class LevelRoad:
-    """Height zero everywhere.
+    """A road of height zero everywhere.
 
     Examples
     --------

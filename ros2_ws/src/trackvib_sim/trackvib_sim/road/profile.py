@@ -115,7 +115,7 @@ def _grid(distance):
 
 @dataclass(frozen=True, eq=False)
 class ProfileRoad:
-    """A `Profile` as a road: level before and behind it, at the heights of its ends, or repeated.
+    """A `Profile` as a road: level before and after it, at the heights of its ends, or repeated.
 
     Each side begins at height zero, for a vehicle starts on level ground. Samples of a profile that are evenly spaced,
     1 mm to 1 m, stay as they are. Others are taken by linear interpolation at the least distance between them, at least
@@ -152,7 +152,7 @@ class ProfileRoad:
 
     @property
     def even(self) -> bool:
-        """Whether the samples are taken as they are."""
+        """Whether the samples are used unchanged."""
         return self._grid[1]
 
     @cached_property

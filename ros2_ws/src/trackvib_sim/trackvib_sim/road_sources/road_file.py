@@ -131,7 +131,7 @@ class RoadFile(_Part):
 
 
 def find_road(text, tread, seed=1):
-    """Return the road that a text names: a class's letter, or a path.
+    """Return the road given by the letter of a class or by a path.
 
     Parameters
     ----------

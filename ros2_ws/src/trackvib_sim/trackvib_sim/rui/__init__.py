@@ -1,6 +1,6 @@
 """The Rui method (transfer matrix method) for any tree of rigid bodies and hinges; docs/method.md explains it.
 
-`table` and `state` hold a tree and its motion, `solve` and `closed_chain` give accelerations. Below are the drawers:
+`table` and `state` contain a tree and its motion, `solve` and `closed_chain` give accelerations. Subpackages are
 `sweeps` (the production form, compiled), `reference` (plain matrices, forms A and X), `linear` (small motions).
 """
 

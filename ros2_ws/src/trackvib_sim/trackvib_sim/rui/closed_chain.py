@@ -64,9 +64,9 @@ def closed_accelerations(
     ----------
     bodies : sequence of table.Body
     pins : sequence of cut_pin.CutPin
-        k of them, one a loop.
+        k pins, one per loop.
     state : state.TreeState
-        It should fulfil the closure (`closure_error`); the pins hold what error there is, or draw it back.
+        It should fulfil the closure (`closure_error`); the pins keep a remaining error, or reduce it.
     loads : state.Loads
     gravity : sequence of 3 floats
         Global axes, m/s^2.
@@ -74,8 +74,8 @@ def closed_accelerations(
     Returns
     -------
     Accelerations
-        Wrenches are those that go with cut pins which carry nothing but a force across their axis. How a loop of
-        parallel axes shares out forces along the axis and moments across it, rigid bodies leave open.
+        Wrenches hold for cut pins that carry only a force across their axis. Rigid bodies do not determine how a loop
+        of parallel axes distributes forces along the axis and moments across it.
     force : (k, 3) array
         Of body b on body a in each pin, global axes [N].
 

@@ -62,7 +62,7 @@ class Loads(NamedTuple):
 
 
 class Accelerations(NamedTuple):
-    """What every form of the method has as its result, global axes, gravity not subtracted.
+    """The result of every form of the method, in global axes, gravity not subtracted.
 
     Examples
     --------

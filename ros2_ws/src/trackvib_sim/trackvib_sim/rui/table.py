@@ -11,7 +11,7 @@ KINDS = ("revolute", "prismatic", "locked", "elastic")
 
 @dataclass(frozen=True)
 class Hinge:
-    """The hinge that ties a body to its parent.
+    """The hinge that connects a body to its parent.
 
     Attributes
     ----------
@@ -73,12 +73,12 @@ class Body:
 
 
 def check_table(bodies: Sequence[Body]) -> None:
-    """Refuse a table that no tree can be built from.
+    """Refuse a table that does not describe a valid tree.
 
     Parameters
     ----------
     bodies : sequence of Body
-        Exactly one without hinge (the root), which comes first; every parent stands before its children.
+        Exactly one without hinge (the root), which comes first; every parent comes before its children.
 
     Raises
     ------

@@ -15,7 +15,7 @@ from .simulation import HORIZON, POWERTRAIN, Simulation
 
 
 class Record(NamedTuple):
-    """What a run measured, one row per control period; of probes one per physics step.
+    """The signals of a run, one row per control period; for probes one per physics step.
 
     Examples
     --------
@@ -46,7 +46,7 @@ def run_closed_loop(simulation: Simulation, road: HasHeights, law: ControlLaw, p
 
     Examples
     --------
-    A tenth of a second under the skyhook law; the record has a row a millisecond.
+    A tenth of a second under the skyhook law; the record has one row per millisecond.
 
     >>> import trackvib_sim as tv
     >>> from mr_mount_controller.laws import find_law

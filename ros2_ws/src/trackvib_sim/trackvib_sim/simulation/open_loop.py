@@ -12,7 +12,7 @@ CHUNK = 100  # periods in one compiled call, and between two calls of `on_progre
 
 
 class OpenLoopRecord(NamedTuple):
-    """What a run measured: of sensors a row per control period, of probes a row per physics step.
+    """The signals of a run: one row per control period for sensors, one per physics step for probes.
 
     Sensors are in the order of the simulation's sample, probes in theirs.
 
@@ -34,7 +34,7 @@ def run_open_loop(
 ) -> OpenLoopRecord:
     """Run a `simulation.Simulation` on a road with its passive current for a number of control periods.
 
-    Gives what `closed_loop.run_closed_loop` gives under the passive law with that current, to the last bit.
+    The result equals that of `closed_loop.run_closed_loop` under the passive law with that current, to the last bit.
     `on_progress(done)` is called now and then with the periods done.
 
     Raises

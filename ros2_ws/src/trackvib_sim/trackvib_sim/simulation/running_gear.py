@@ -23,7 +23,7 @@ RUNS = ("lower", "front", "upper", "rear")
 
 
 class MeasuredKind(NamedTuple):
-    """One kind of what is measured.
+    """One kind of running-gear signal.
 
     Examples
     --------
@@ -44,7 +44,7 @@ class RunningGear:
     Attributes
     ----------
     kinds : tuple of MeasuredKind
-        What `read` gives, in its order.
+        The kinds that `read` returns, in its order.
 
     Examples
     --------
@@ -87,7 +87,7 @@ class RunningGear:
         )
 
     def read(self) -> list[np.ndarray]:
-        """Return the numbers of each kind at the end of the last period, of which there must have been one."""
+        """Return the numbers of each kind at the end of the last period; at least one period must have been done."""
         system, state = self._simulation.system, self._simulation.state
         suspension, tracks = system.suspension, copy_cells(state.tracks)
         update_motion(system.tree, state.tree, self._motion)

@@ -23,7 +23,7 @@ HORIZON = 50.0  # m of road that a run in one process keeps ahead of the vehicle
 
 
 class Probe(NamedTuple):
-    """A further point whose acceleration is measured, at every physics step and as it is.
+    """A further point whose acceleration is measured without errors, at every physics step.
 
     Examples
     --------
@@ -37,7 +37,7 @@ class Probe(NamedTuple):
 
 
 class RunFailed(RuntimeError):
-    """The state left what the model can describe; the message says when.
+    """The state left the valid range of the model; the message says when.
 
     Examples
     --------
@@ -54,15 +54,15 @@ class Simulation:
     ----------
     sensors : list of vehicle.sensors.Sensor
     sample : step.Sample
-        Of the last control period, a row a sensor, `CHASSIS` and `POWERTRAIN` first. Before the first period nothing
-        is measured, only its state is filled.
+        Of the last control period, one row per sensor, `CHASSIS` and `POWERTRAIN` first. Before the first period
+        nothing is measured, only its state is filled.
     mounting : mr_mount_controller.mounting.Mounting
-        The mounts in the order of the sample, and how many coils there are.
+        The mounts in the order of the sample, and the number of coils.
     state : vehicle.system.State
     road : road.store.RoadStore
-        To be filled by the caller, as far ahead as `road_is_enough` asks.
+        To be filled by the caller, as far ahead as `road_is_enough` requires.
     road_at_hand : road.store.Road or None
-        The stretch on which the last period was done, None before the first one.
+        The part used for the last period, None before the first one.
     periods : int
         Control periods done.
 
@@ -92,7 +92,7 @@ class Simulation:
         next(self._periods(Road(0, 1.0, np.zeros((2, 2))), nothing))
 
     def reset(self):
-        """Start anew as if just made: time zero, the state in which every run begins, no road."""
+        """Restart: time zero, the initial state of every run, no road."""
         self._held = self._statuses = None  # the road that the generator of control periods was made with, and itself
         self.road_at_hand = None
         self.state = copy_cells(self._initial)
@@ -120,14 +120,14 @@ class Simulation:
         return self._road_around(1) is not None
 
     def command(self, speed: float, yaw_rate: float):
-        """Want another speed [m/s] and yaw rate [rad/s, to the left] from the next period on, whatever the schedule.
+        """Demand a speed [m/s] and yaw rate [rad/s, to the left] from the next period, regardless of the schedule.
 
         The path ahead of the vehicle's front takes the curvature yaw_rate / speed.
 
         Raises
         ------
         ValueError
-            They are none that a tracked vehicle can be steered by.
+            A tracked vehicle cannot be steered by them.
         """
         self.state.drive.wanted.command[:] = speed, curvature_of(speed, yaw_rate)
         self.state.drive.wanted.commanded[0] = True

@@ -121,7 +121,7 @@ class SensorParameters(Section):
 
 
 class Vehicle(Section):
-    """The whole file.
+    """A whole vehicle file.
 
     Examples
     --------

@@ -11,7 +11,7 @@ from .parameters import CHASSIS, POWERTRAIN
 
 
 class Instrument(NamedTuple):
-    """What keeps three axes of a sensor from being ideal, in the unit of what they measure.
+    """Errors of three axes of a sensor, in the unit of the measured quantity.
 
     Examples
     --------
@@ -27,12 +27,12 @@ class Instrument(NamedTuple):
 
     @property
     def is_ideal(self) -> bool:
-        """Whether it changes nothing."""
+        """Whether there are no errors."""
         return self == Instrument()
 
 
 class Sensor(NamedTuple):
-    """One sensor.
+    """An inertial sensor.
 
     Examples
     --------

@@ -45,7 +45,7 @@ class Operation:
 
     @property
     def plan(self) -> Schedule:
-        """What is wanted over the run."""
+        """The demanded speed and path of the run."""
         return self.schedule or constant_schedule(self.speed, self.engine_speed)
 
 

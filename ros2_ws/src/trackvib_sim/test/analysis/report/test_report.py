@@ -163,7 +163,7 @@ def test_heat_in_the_mounts_is_that_of_their_samples(report):
 def test_thinning_is_told_where_lines_are_thinned(report, samples, thinned):
     """The caption of the histories speaks of long bags only below those of one."""
     page = report(made_recording(np.arange(1, samples + 1)))
-    assert ("Of long bags the least" in _words(page)) == thinned
+    assert ("For long bags the least" in _words(page)) == thinned
 
 
 @pytest.mark.property

@@ -43,8 +43,8 @@ def on_common_band(pair, alike):
     common = type(moved)(np.concatenate(found["stamp"]), np.concatenate(found["force"]))
     rates = {sensor: 1e9 / period for sensor, period in periods.items()}
     note = (
-        f"{fast}/imu is sampled at {rates[fast]:.6g} Hz and {slow}/imu at {rates[slow]:.6g} Hz: each has numbers at its "
-        f"own rate; spectra, lines, transmissibility and coherence reach {0.5 * rates[slow]:.4g} Hz, and {fast}/imu was "
-        "resampled for them, band-limited"
+        f"{fast}/imu is sampled at {rates[fast]:.6g} Hz and {slow}/imu at {rates[slow]:.6g} Hz: each has numbers at "
+        f"its own rate; spectra, lines, transmissibility and coherence reach {0.5 * rates[slow]:.4g} Hz, and "
+        f"{fast}/imu was resampled for them, band-limited"
     )
     return {**pair, fast: common}, {fast: moved}, [note]

@@ -12,9 +12,9 @@ from .tables import Table, number
 
 _COLOURS = {**SENSOR_COLOURS, THROUGH: "#b0508f"}
 _METHOD = (
-    "Ratios are simulated over measured, with {confidence:.0%} confidence intervals. These come from the jackknife over "
-    "groups of windows (2 s, Hann, 50 % overlap; {windows[0]} measured, {windows[1]} simulated) and Student's t on "
-    "logarithms, with degrees of freedom by Welch and Satterthwaite. {aligned}"
+    "Ratios are simulated over measured, with {confidence:.0%} confidence intervals. These come from the jackknife "
+    "over groups of windows (2 s, Hann, 50 % overlap; {windows[0]} measured, {windows[1]} simulated) and Student's t "
+    "on logarithms, with degrees of freedom by Welch and Satterthwaite. {aligned}"
 )
 _ALIGNED = {
     "speed": "Windows are compared in the speed bands that both drives contain, weighted as in the measured drive.",

@@ -21,15 +21,10 @@ from .thinning import MOST
 
 _WEIGHTED = "Weighted: ISO 2631-1, Wk along z, Wd along x and y."
 _WELCH = (
-    "Welch's method, windows of 1 s. Dotted: links entering the sprockets, v/p and multiples. "
-    "Dashed: engine orders"
+    "Welch's method, windows of 1 s. Dotted: links entering the sprockets, v/p and multiples. Dashed: engine orders"
 )
-_PARTS = (
-    "Vertical z: RMS, and the power that a driver sitting there would absorb (dotted: 6 W, the usual ride limit)."
-)
-_ORDERS = (
-    "Vertical z. Order spectra in dB re 1 (m/s²)²/order by engine speed, and RMS in a band about each order."
-)
+_PARTS = "Vertical z: RMS, and the power that a driver sitting there would absorb (dotted: 6 W, the usual ride limit)."
+_ORDERS = "Vertical z. Order spectra in dB re 1 (m/s²)²/order by engine speed, and RMS in a band about each order."
 _CAMPBELL = (
     "Vertical z, level in dB re 1 (m/s²)²/Hz by speed. Dotted: links entering the sprockets, v/p and multiples. "
     "Dashed: engine orders."
@@ -83,8 +78,8 @@ def of_one(report_data):
         ),
         Section(
             "Mounts",
-            "Vertical, in the hull's axes. Grey: positions of the mount, darker where it stayed longer. Line: the second "
-            "about its largest travel.",
+            "Vertical, in the hull's axes. Grey: positions of the mount, darker where it stayed longer. Line: the "
+            "second about its largest travel.",
             bag_figures.mount_loops(report_data),
             [tables.mounts(analysis)],
             2,

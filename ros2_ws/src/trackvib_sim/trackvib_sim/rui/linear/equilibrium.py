@@ -19,8 +19,8 @@ def find_equilibrium(model: LinearModel, tolerance: float = 1e-9, steps: int = 2
     """Return `model` in a state of rest, its laws referred to that state.
 
     Newton steps with the stiffness of the sweeps, kept downhill in potential energy, so that a stable equilibrium is
-    found (unless the start is an unstable one). Hinges that nothing holds or drives (no spring, no load that depends on
-    their coordinate) stay where they are, and so do prescribed hinges.
+    found (unless the start is an unstable one). Hinges without a spring or a load that depends on their coordinate keep
+    their position, and so do prescribed hinges.
 
     Parameters
     ----------

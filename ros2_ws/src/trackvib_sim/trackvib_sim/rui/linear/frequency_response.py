@@ -86,7 +86,7 @@ def frequency_response(
 
     Examples
     --------
-    A horizontal force on the arm's end moves it; well below resonance by 1 / (M g l) a newton.
+    A horizontal force moves the arm's end; well below resonance by 1 / (M g l) per newton.
 
     >>> import numpy as np
     >>> from trackvib_sim import rui

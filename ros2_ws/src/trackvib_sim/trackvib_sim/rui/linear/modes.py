@@ -23,8 +23,8 @@ DIRECTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 class Mode:
     """One damped mode, motion = Re(shape exp(pole t)).
 
-    A pair of complex poles is one mode. A real pole (overdamped, or an unstable way out) is a mode of its own with
-    damping ratio 1 (or -1).
+    A pair of complex poles is one mode. A real pole (overdamped, or unstable without oscillation) is a separate mode
+    with damping ratio 1 (or -1).
 
     Attributes
     ----------
@@ -40,16 +40,16 @@ class Mode:
         Of the hinges [rad or m]. Shapes are scaled so that sum x^H M x over all bodies is 1, and turned so that the
         largest part of that sum is in phase with a real displacement.
     energy_share : (n,) array
-        Every body's part of the kinetic energy; sums up to 1.
+        Share of each body in the kinetic energy; the sum is 1.
     root_share : (6,) array
-        The root's part split up into three displacements of its centre of mass and three rotations; sums up to
+        Share of the root, split into three displacements of its centre of mass and three rotations; the sum is
         energy_share[0].
     hinge_share : (n,) array
-        What the motion in each hinge brings into the kinetic energy (its motion times its momentum), row 0 zero; can
-        be negative.
+        Contribution of the motion in each hinge to the kinetic energy (its motion times its momentum), row 0 zero;
+        can be negative.
     whole_share : (6,) array
-        The same of the motion of the whole tree with the root, at the common centre of mass; sums up with
-        hinge_share to 1.
+        The same for the motion of the whole tree with the root, at the common centre of mass; with hinge_share the
+        sum is 1.
 
     Examples
     --------
@@ -90,7 +90,7 @@ class Mode:
 def natural_frequencies(model: LinearModel, highest_frequency: float) -> np.ndarray:
     """Return all undamped frequencies below a limit [Hz], ascending, each as often as it occurs.
 
-    Free motions are 0 but for rounding (about 1e-7 of the highest). An unstable motion exp(a t) comes out as -a / 2 pi.
+    Free motions are 0 except for rounding (about 1e-7 of the highest). An unstable motion exp(a t) gives -a / 2 pi.
 
     Examples
     --------
@@ -121,7 +121,7 @@ def modes(model: LinearModel, highest_frequency: float = np.inf, zero_below: flo
     highest_frequency : float
         Modes with a larger |pole| / 2 pi [Hz] are left out.
     zero_below : float
-        Modes below [Hz] are free motions and left out.
+        Modes below it [Hz] are free motions and are left out.
 
     Returns
     -------

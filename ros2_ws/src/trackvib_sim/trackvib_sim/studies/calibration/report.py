@@ -82,7 +82,7 @@ def _rows(rows, best):
 def _resistance(rows, history, best, first):
     good = [each for each in history.candidates if np.isfinite(each.ratios).all()]
     table = min(good, key=lambda each: error_factor(each.ratios, 1.0), default=best)
-    lines = ["## Running resistance", "", "On level ground, relative to the lowest and the highest published formula.", ""]
+    lines = ["## Running resistance", "", "On level ground, relative to the lowest and the highest formula.", ""]
     speeds = level_speeds(rows)
     lines += [_line("", *(f"{speed:g} m/s" for speed in speeds), "error factor"), "|" + "---|" * (len(speeds) + 2)]
     named = ("start", first), ("calibrated", best), ("least objective", history.best), ("best for the table", table)
@@ -96,11 +96,11 @@ def _parameters(plan, start, best, neighbours, sensitive):
     lines = [
         "## Parameters",
         "",
-        f"The set is not unique: *neighbours* is the range of all {len(neighbours)} candidates whose objective is at most "
-        f"{100.0 * (ALIKE - 1.0):.0f} % above the smallest.",
+        f"The set is not unique: *neighbours* is the range of all {len(neighbours)} candidates whose objective is at "
+        f"most {100.0 * (ALIKE - 1.0):.0f} % above the smallest.",
         "*Strength* is the change of the RMS when the parameter changes by "
         f"{100.0 * PER:.0f} % of its range, as root mean square over all numbers of the table, from runs "
-        f"{100.0 * REACH:.0f} % below and above; noise alone gives {_percent(sensitive.noise)}. The strongest come first.",
+        f"{100.0 * REACH:.0f} % below and above; noise alone gives {_percent(sensitive.noise)}. Strongest first.",
         "",
         "| parameter | low | high | scale | start | calibrated | near a bound | neighbours | strength |",
         "|" + "---|" * 9,

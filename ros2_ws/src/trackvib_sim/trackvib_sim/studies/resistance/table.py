@@ -19,8 +19,8 @@ SINKS = {
 }  # name of a `Part` in small letters -> what that is
 assert list(SINKS) == [part.name.lower() for part in Part]
 
-# Internal resistance of tracked running gear, N per tonne at V km/h: a fit to military vehicles, and one to modern light
-# ones [Wong].
+# Internal resistance of tracked running gear, N per tonne at V km/h: a fit to military vehicles, and one to modern
+# light ones [Wong].
 FORMULAS = {"222 + 3 V": lambda v: 222.0 + 3.0 * v, "133 + 2.5 V": lambda v: 133.0 + 2.5 * v}
 KMH = 3.6  # km/h in a m/s
 TONNE = 1e3  # kg

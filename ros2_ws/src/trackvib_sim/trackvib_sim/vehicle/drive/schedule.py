@@ -10,7 +10,7 @@ from ...numerics.units import RPM
 
 
 class Schedule(NamedTuple):
-    """Points between which what is wanted changes linearly; before the first and behind the last it stays.
+    """Demanded values that change linearly between points and are constant before the first and after the last.
 
     Over time the curvature is that of the path at the vehicle's front at that time, over distance that of the path.
 
