@@ -10,7 +10,8 @@ from trackvib_sim.road.iso8608 import SPACING, Iso8608Road
 from trackvib_sim.road.store import Road
 from trackvib_sim.rui.sweeps.tree import to_lanes
 from trackvib_sim.simulation.settings import Rates
-from trackvib_sim.vehicle.energy import EnergyMeter, Part, Source, energy
+from trackvib_sim.vehicle.energy import Part, Source, energy
+from trackvib_sim.vehicle.energy_meter import EnergyMeter
 from trackvib_sim.vehicle.step_size import recommended_rate
 from trackvib_sim.vehicle.system import Operation, build_system, new_state
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
