@@ -11,6 +11,7 @@ from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.closed_loop import run_closed_loop
 from trackvib_sim.simulation.settings import Rates, RunSettings
 from trackvib_sim.simulation.simulation import Simulation
+from trackvib_sim.vehicle.step_size import recommended_rate
 from trackvib_sim.vehicle.system import Operation
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
@@ -26,7 +27,8 @@ ROAD = {"road": "E", "seed": 1, "level_until": 1.0, "fade": 1.0}
 def simulation():
     """The vehicle as the simulator node has it by default; reset for each law."""
     vehicle, _ = read_vehicle(find_vehicle())
-    return Simulation(vehicle, RunSettings(Operation(10.0, 1650.0, False, 0.25), Rates(), 1.0))
+    rates = Rates(recommended_rate(vehicle))
+    return Simulation(vehicle, RunSettings(Operation(10.0, 1650.0, False, 0.25), rates, 1.0))
 
 
 @pytest.fixture

@@ -46,7 +46,8 @@ def test_another_nodes_road_is_driven_on(start_node, observer):
     observer.wait_until(lambda: not simulator.running)
     assert simulator.wait() == 0, simulator.output
     vehicle, _ = tv.read_vehicle(tv.find_vehicle())
-    settings = tv.RunSettings(tv.Operation(10.0, 1650.0, False, 0.25), tv.Rates(), passive_current=1.0)
+    rates = tv.Rates(tv.recommended_rate(vehicle))
+    settings = tv.RunSettings(tv.Operation(10.0, 1650.0, False, 0.25), rates, passive_current=1.0)
     expected = tv.run_open_loop(tv.Simulation(vehicle, settings), Waves(), PERIODS).specific_force[:, 0]
     # what came before this test's reader was found is no matter
     found = [deserialize_message(data, Imu) for data in measured]

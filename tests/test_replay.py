@@ -20,6 +20,7 @@ from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.closed_loop import run_closed_loop
 from trackvib_sim.simulation.settings import Rates, RunSettings
 from trackvib_sim.simulation.simulation import Simulation
+from trackvib_sim.vehicle.step_size import recommended_rate
 from trackvib_sim.vehicle.system import Operation
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
@@ -50,7 +51,8 @@ def rerun(recorded_run, tmp_path_factory):
 def test_a_rerun_is_the_run_under_that_law(rerun):
     """On the recorded road alone, to the last bit what the loop in process gives on the road itself."""
     vehicle, _ = read_vehicle(find_vehicle())
-    simulation = Simulation(vehicle, RunSettings(Operation(10.0, 1650.0, False, 0.25), Rates(), 1.0))
+    rates = Rates(recommended_rate(vehicle))
+    simulation = Simulation(vehicle, RunSettings(Operation(10.0, 1650.0, False, 0.25), rates, 1.0))
     record = run_closed_loop(simulation, Iso8608Road("E", 1, 8.0, 8.0), Passive(1e-3), 3200)
     drive = read_recording(rerun / "bag")
     np.testing.assert_array_equal(drive.chassis.stamp, record.stamp)

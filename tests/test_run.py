@@ -23,6 +23,7 @@ from trackvib_sim.simulation.closed_loop import run_closed_loop
 from trackvib_sim.simulation.settings import Rates, RunSettings
 from trackvib_sim.simulation.simulation import Simulation
 from trackvib_sim.vehicle.mount_energy import MountEnergy
+from trackvib_sim.vehicle.step_size import recommended_rate
 from trackvib_sim.vehicle.system import Operation
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
@@ -100,7 +101,8 @@ def test_another_seed_gives_another_run(first, tmp_path):
 def test_loop_in_one_process_is_identical(drive):
     """The same vehicle, road and law in one process give the same samples and currents to the last bit."""
     vehicle, _ = read_vehicle(find_vehicle())
-    simulation = Simulation(vehicle, RunSettings(Operation(10.0, 1650.0, False, 0.25), Rates(), 1.0))
+    rates = Rates(recommended_rate(vehicle))
+    simulation = Simulation(vehicle, RunSettings(Operation(10.0, 1650.0, False, 0.25), rates, 1.0))
     record = run_closed_loop(simulation, Iso8608Road("E", 1, 8.0, 8.0), Skyhook(1e-3), SAMPLES)
     np.testing.assert_array_equal(record.specific_force[:, 0], drive.chassis.specific_force)
     np.testing.assert_array_equal(record.specific_force[:, 1], drive.powertrain.specific_force)

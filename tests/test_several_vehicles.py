@@ -18,6 +18,7 @@ from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.closed_loop import run_closed_loop
 from trackvib_sim.simulation.settings import Rates, RunSettings
 from trackvib_sim.simulation.simulation import Simulation
+from trackvib_sim.vehicle.step_size import recommended_rate
 from trackvib_sim.vehicle.system import Operation
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
@@ -90,7 +91,8 @@ def test_a_vehicle_beside_one_in_a_namespace_is_as_alone(side_by_side):
     drive = read_recording(side_by_side[0] / "root" / "bag")
     assert not [topic for topic in drive.counts if topic.startswith("/lab")]
     vehicle, _ = read_vehicle(find_vehicle())
-    simulation = Simulation(vehicle, RunSettings(Operation(SPEED, 1650.0, False, 0.25), Rates(), 1.0))
+    rates = Rates(recommended_rate(vehicle))
+    simulation = Simulation(vehicle, RunSettings(Operation(SPEED, 1650.0, False, 0.25), rates, 1.0))
     law = find_law("hybrid")(1e-3, firm_current=2.5)
     record = run_closed_loop(simulation, Iso8608Road("E", SEED, 8.0, 8.0), law, PERIODS)
     np.testing.assert_array_equal(record.specific_force[:, 1], drive.powertrain.specific_force)

@@ -2,6 +2,7 @@
 from .data import find_vehicle as find_vehicle
 from .data import vehicle_names as vehicle_names
 from .vehicle.parameters import Vehicle as Vehicle
+from .vehicle.step_size import recommended_rate as recommended_rate
 from .vehicle.sensors import Instrument as Instrument
 from .vehicle.sensors import Sensor as Sensor
 from .vehicle.drive.schedule import Schedule as Schedule

@@ -61,6 +61,13 @@ def recommended_rate(vehicle, control=KILO):
     The fastest undamped motion advances by `NEEDED` per step at most, and the step keeps clear of the longest stable
     one. The rate is a whole number of kHz that divides a second into whole nanoseconds, as rates must; where there is
     such a one, it is a multiple of the control rate [Hz] and divides the coils' delay into whole steps.
+
+    Examples
+    --------
+    >>> import trackvib_sim as tv
+    >>> vehicle, _ = tv.read_vehicle(tv.find_vehicle("m113"))
+    >>> tv.Rates(tv.recommended_rate(vehicle)).steps  # per control period of 1 ms
+    4
     """
     needed = max(fastest_contact(vehicle)[1] / NEEDED, CLEAR / longest_step(vehicle))
     enough = [rate for rate in RATES if rate >= needed] or RATES[-1:]
