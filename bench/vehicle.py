@@ -3,9 +3,9 @@
     ./trackvib exec -- python bench/vehicle.py [--parts]
 
 Body tree, two tracks, mounts and engine of each vehicle that comes with the package, on a road of class E at 10 m/s, at
-its recommended physics rate. Beside them, in turns, the articulated-body algorithm of Pinocchio evaluates the default vehicle's body
-tree alone (its call from Python taken off, see bench/body_tree.py): the unit in which machines of different speed can
-be compared. With --parts a second table has the parts of a step, as far as they can be timed alone.
+its recommended physics rate. Beside them, in turns, the articulated-body algorithm of Pinocchio evaluates the default
+vehicle's body tree alone (its call from Python taken off, see bench/body_tree.py): the unit in which machines of
+different speed can be compared. With --parts a second table has the parts of a step, as far as they can be timed alone.
 """
 
 import argparse
@@ -106,7 +106,7 @@ def main():
 
 
 def _parts_table(by_vehicle, rate, aba):
-    """Return the table of the parts of each vehicle's step [s], given its rates [Hz] and the time of an aba call [s]."""
+    """Return the table of the parts of each vehicle's step [s], given rates [Hz] and the time of an aba call [s]."""
     table = Table(title="Parts of a step, us / aba calls a simulated second")
     table.add_column("part")
     for name in by_vehicle:

@@ -21,7 +21,8 @@ import trackvib_sim as tv
 from mr_mount_controller.laws import find_law
 
 vehicle, _ = tv.read_vehicle(tv.find_vehicle())
-settings = tv.RunSettings(tv.Operation(10.0, 1650.0, False), tv.Rates(tv.recommended_rate(vehicle)), passive_current=1.0)
+rates = tv.Rates(tv.recommended_rate(vehicle))
+settings = tv.RunSettings(tv.Operation(10.0, 1650.0, False), rates, passive_current=1.0)
 record = tv.run_closed_loop(tv.Simulation(vehicle, settings), tv.Iso8608Road("E", 1), find_law("skyhook")(1e-3), 200)
 print(record.specific_force.shape)
 analysis = tv.analyse(tv.read_recording(sys.argv[1]))

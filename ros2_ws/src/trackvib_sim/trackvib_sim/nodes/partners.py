@@ -116,7 +116,9 @@ class RecorderLag:
         """
         if not (self.there and self._topics):
             return False
-        recorders = set(filter(is_known, publishing_nodes(self._node, [self._node.resolve_topic_name(topics.RECORDED)])))
+        recorders = set(
+            filter(is_known, publishing_nodes(self._node, [self._node.resolve_topic_name(topics.RECORDED)]))
+        )
         mine = {publisher.topic_name for publisher in self._node.publishers} & self._topics
         return all(recorders.intersection(subscribing_nodes(self._node, name)) for name in mine)
 

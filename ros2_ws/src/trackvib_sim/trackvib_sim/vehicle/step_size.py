@@ -10,8 +10,8 @@ from typing import NamedTuple
 from ..numerics.units import NANO
 from .coil import delay_fits
 
-# rad, the most that the fastest motion may advance in a step. Up to it no RMS changes by 5 % with a finer step, nor does
-# a third octave up to 315 Hz by 10 % (bench/step_accuracy.py); beyond it steps soon come near the longest stable one.
+# rad, the most that the fastest motion may advance in a step. Up to it a finer step changes no RMS by 5 %
+# (bench/step_accuracy.py); beyond it steps soon come near the longest stable one.
 NEEDED = 1.25
 CLEAR = 1.15  # longest stable step over the longest recommended one
 KILO = 1000
