@@ -8,6 +8,7 @@ import trackvib_sim as tv
 import trackvib_sim.learning  # noqa: F401  registers the environment
 from machine import best_times, machine
 from trackvib_sim.road.feeder import RoadFeeder
+from trackvib_sim.vehicle.step_size import recommended_rate
 
 STEPS, ROUNDS = 10, 600  # short turns: on a busy machine some are not disturbed
 SEED = 1
@@ -16,7 +17,8 @@ SEED = 1
 def bare():
     """Return the function that does `STEPS` control periods under constant current, and no more."""
     vehicle, _ = tv.read_vehicle(tv.find_vehicle())
-    settings = tv.RunSettings(tv.Operation(10.0, 1650.0, False), tv.Rates(), passive_current=1.0)
+    rates = tv.Rates(recommended_rate(vehicle))
+    settings = tv.RunSettings(tv.Operation(10.0, 1650.0, False), rates, passive_current=1.0)
     simulation, feeder = tv.Simulation(vehicle, settings), RoadFeeder(tv.Iso8608Road("E", SEED), 50.0)
 
     def drive():

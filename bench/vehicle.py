@@ -2,8 +2,8 @@
 
     ./trackvib exec -- python bench/vehicle.py [--parts]
 
-Body tree, two tracks, mounts and engine of each vehicle that comes with the package, on a road of class E at 10 m/s, in
-steps of 1e-4 s. Beside them, in turns, the articulated-body algorithm of Pinocchio evaluates the default vehicle's body
+Body tree, two tracks, mounts and engine of each vehicle that comes with the package, on a road of class E at 10 m/s, at
+its recommended physics rate. Beside them, in turns, the articulated-body algorithm of Pinocchio evaluates the default vehicle's body
 tree alone (its call from Python taken off, see bench/body_tree.py): the unit in which machines of different speed can
 be compared. With --parts a second table has the parts of a step, as far as they can be timed alone.
 """
@@ -22,6 +22,7 @@ from trackvib_sim.rui.state import rest_state
 from trackvib_sim.simulation.settings import Rates, RunSettings
 from trackvib_sim.simulation.simulation import Simulation
 from trackvib_sim.vehicle.body_tree import build_body_table
+from trackvib_sim.vehicle.step_size import recommended_rate
 from trackvib_sim.vehicle.system import Operation, new_work
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
@@ -36,7 +37,8 @@ class Drive:
     """A vehicle that drives on, chunk after chunk."""
 
     def __init__(self, vehicle):
-        settings = RunSettings(Operation(SPEED, ENGINE_SPEED, False), Rates(), 1.0)
+        settings = RunSettings(Operation(SPEED, ENGINE_SPEED, False), Rates(recommended_rate(vehicle)), 1.0)
+        self.rates = settings.rates
         self._simulation = Simulation(vehicle, settings)
         length = 50.0 + SPEED * (ROUNDS + 2) * CHUNK / settings.rates.control
         road, spacing = Iso8608Road("E", 1, LEVEL_UNTIL, FADE), 0.05
@@ -84,31 +86,34 @@ def main():
     for column in ("what", "time, us", "aba calls a simulated second"):
         table.add_column(column, justify="left" if column == "what" else "right")
     for name in vehicles:
-        table.add_row(f"{name}, one step of 1e-4 s", f"{1e6 * times[name] / (10 * CHUNK):.2f}", f"{calls[name]:.0f}")
+        rates = drives[name].rates
+        step = f"{1e6 * times[name] / (rates.steps * CHUNK):.2f}"
+        table.add_row(f"{name}, one step of {1e6 / rates.physics:g} us", step, f"{calls[name]:.0f}")
     table.add_row("Pinocchio aba, body tree alone", f"{1e6 * aba:.2f}", "")
     out = Console()
     out.print(table)
     if with_parts:
         by_vehicle = {
             name: parts_of_step(
-                {part: times[name, part] / STEPS for other, part in parts if other == name}, times[name] / (10 * CHUNK)
+                {part: times[name, part] / STEPS for other, part in parts if other == name},
+                times[name] / (drives[name].rates.steps * CHUNK),
             )
             for name in vehicles
         }
-        out.print(_parts_table(by_vehicle, aba))
+        out.print(_parts_table(by_vehicle, {name: drive.rates.physics for name, drive in drives.items()}, aba))
     print(f"real time factor = {factor:.1f}")
     print(f"aba calls per simulated second = {calls[DEFAULT_VEHICLE]:.0f}")
 
 
-def _parts_table(by_vehicle, aba):
-    """Return the table of the parts of each vehicle's step [s], given the time of an aba call [s]."""
+def _parts_table(by_vehicle, rate, aba):
+    """Return the table of the parts of each vehicle's step [s], given its rates [Hz] and the time of an aba call [s]."""
     table = Table(title="Parts of a step, us / aba calls a simulated second")
     table.add_column("part")
     for name in by_vehicle:
         table.add_column(name, justify="right")
     for part in by_vehicle[DEFAULT_VEHICLE]:
-        spent = [by_vehicle[name][part] for name in by_vehicle]
-        table.add_row(part, *(f"{1e6 * time:.2f} / {1e4 * time / aba:.0f}" for time in spent))
+        spent = {name: parts[part] for name, parts in by_vehicle.items()}
+        table.add_row(part, *(f"{1e6 * time:.2f} / {rate[name] * time / aba:.0f}" for name, time in spent.items()))
     return table
 
 

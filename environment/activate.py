@@ -31,6 +31,7 @@ def variables(places: Places, ros: Ros, environ) -> dict:
     apply(env, captured["workspace"])
     if ros.prefix is None and environ.get(_MARK) != str(places.root):
         _add_own_modules(env, places, environ.get("PYTHONPATH"))
+    with_sources(env, places)
     # The virtual environment in front of everything, the stand-in for `ros2` behind: a real one wins.
     put_first(env, "PATH", [str(places.venv / "bin")])
     stand_in = str(places.environment / "bin")
@@ -58,6 +59,15 @@ def before_workspace(places: Places, ros: Ros, environ) -> dict:
     env.setdefault("FASTRTPS_DEFAULT_PROFILES_FILE", str(places.environment / "fastdds.xml"))
     with contextlib.suppress(OSError):  # rclpy says itself that it has no place for its logs
         env.setdefault("ROS_LOG_DIR", str(_ros_logs(places, environ)))
+    return env
+
+
+def with_sources(env: dict, places: Places) -> dict:
+    """Let our packages be imported from their sources, to which all that colcon installs of them leads, too.
+
+    So compiled kernels, which numba keeps by the paths of their modules, can be made before the workspace is.
+    """
+    put_first(env, "PYTHONPATH", sorted(str(path.parent) for path in places.sources.glob("*/setup.py")))
     return env
 
 

@@ -16,6 +16,7 @@ class Places:
         self.lock = self.home / "lock"
         self.logs = self.home / "log"
         self.venv = self.home / "venv"
+        self.packages = self.venv / "packages"
         self.python = self.venv / "bin" / "python3"
         self.workspace = self.home / "workspace"
         self.kernels = self.home / "kernels"

@@ -30,38 +30,34 @@ def prepare(root: Path, extras: tuple = ()) -> dict:
     ros = ros2.find(os.environ)
     setup = Setup(places, ros, _interpreter(places, ros))
     stages = plan(setup, extras)
-    if not all(_is_done(stage) for stage in stages):
+    if not all(map(_is_done, stages.values())):
         began = time.monotonic()
         for stop in (signal.SIGTERM, signal.SIGHUP):
             signal.signal(stop, _interrupt)
         with steps.only_one(places.lock) as lock:
             _do(setup, extras, lock)
         steps.say(f"ready after {time.monotonic() - began:.0f} s")
-    return job_variables(setup, stages[-1].key)
+    return job_variables(setup, stages["kernels"].key)
 
 
 def _do(setup: Setup, extras: tuple, lock: int) -> None:
     log = setup.places.logs / "setup"
 
-    def make(stages):
-        for stage in stages:
-            if _is_done(stage):
-                continue
-            with steps.Task(stage.what, stage.takes, log / f"{stage.name}.log", keep=(lock,)) as task:
-                steps.wipe(stage.folder)
-                stage.make(task)
-                stamp = {"key": stage.key, "python": setup.python._asdict(), "ros": str(setup.ros.prefix)}
-                steps.write_stamp(stage.folder, stamp)
+    def make(stage):
+        if _is_done(stage):
+            return
+        with steps.Task(stage.what, stage.takes, log / f"{stage.name}.log", keep=(lock,)) as task:
+            steps.wipe(stage.folder)
+            stage.make(task)
+            stamp = {"key": stage.key, "python": setup.python._asdict(), "ros": str(setup.ros.prefix)}
+            steps.write_stamp(stage.folder, stamp)
 
-    packages, *others = plan(setup, extras)
-    if not _is_done(packages):
+    stages = plan(setup, extras)
+    if not _is_done(stages["library"]):
         if not setup.ros.prefix:
             ros2.check_wheels(setup.python.version)
         system.require(setup.python, log / "apt.log")
-        make([packages])
-    # Extras only need the packages: they are fetched and unpacked while the others are compiled.
-    apart = [stage for stage in others if stage.extra]
-    steps.side_by_side(partial(make, apart), partial(make, [stage for stage in others if not stage.extra]))
+    steps.side_by_side({stage.name: (stage.needs, partial(make, stage)) for stage in stages.values()})
 
 
 def _is_done(stage) -> bool:

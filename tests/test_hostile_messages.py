@@ -40,6 +40,7 @@ LOOP = (  # topic, a message, quality of service
     ("mount_description", mount_description(PAIR), LATCHED_QOS),
     ("/clock", Clock(), QoSProfile(depth=10)),
     ("recorder/recorded", Time(), LATCHED_QOS),
+    ("recorder/topics", String(data="/chassis/imu"), LATCHED_QOS),
 )
 
 

@@ -40,7 +40,7 @@ def test_waits_and_ends_cleanly(start_node, tmp_path, name, number):
         ("simulator", {"speed": "fast"}, ["'speed'", "'fast'", "a number"]),
         ("simulator", {"sped": 5.0}, ["'sped'", "known are", "speed"]),
         ("simulator", {"pace": "slow"}, ["'pace'", "'slow'", "lockstep, realtime"]),
-        ("simulator", {"control_rate": 3000}, ["physics_rate 10000", "control_rate 3000", "conflict"]),
+        ("simulator", {"control_rate": 3000}, ["physics_rate 5000", "control_rate 3000", "conflict"]),
         ("simulator", {"view_rate": 300}, ["control_rate 1000", "view_rate 300", "conflict"]),
         ("simulator", {"engine_speed": 200.0}, ["'engine_speed'", "200.0", "450 to 2100"]),
         ("simulator", {"vehicle_file": "/nowhere.yaml"}, ["'vehicle_file'", "/nowhere.yaml"]),

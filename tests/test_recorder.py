@@ -16,12 +16,14 @@ from builtin_interfaces.msg import Time
 from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 from mr_mount_controller.node_base.qos import LATCHED_QOS, LOOP_WRITER_QOS
+from rclpy.qos import QoSProfile
 from rosbags.rosbag2 import Reader
 from sensor_msgs.msg import Imu
 from std_msgs.msg import String
 from trackvib_msgs.msg import MountState
 from trackvib_sim.bags.contents import contents
 from trackvib_sim.bags.repair import repair
+from trackvib_sim.bags.timekeeping import END_OF_TIME
 from trackvib_sim.data import find_vehicle
 from trackvib_sim.nodes.messages import ImuMessage, MountMessage
 from trackvib_sim.nodes.topic_choice import subscribe
@@ -239,6 +241,27 @@ def test_progress_is_that_of_the_slowest_topic(start_node, observer, tmp_path):
     observer.wait_until(lambda: told[-1] == 100)
     recorder.signal(signal.SIGINT)
     assert recorder.wait() == 0, recorder.output
+
+
+@SLOW
+def test_no_sample_before_the_recorder_is_reached(start_node, observer):
+    """A recorder whose subscription the simulator does not know yet, which says that it stands, misses nothing."""
+    node, end = observer.node, Time(sec=END_OF_TIME // SECOND, nanosec=END_OF_TIME % SECOND)
+    for topic in ("recorder/recorded", "recorder/recorded_answers"):
+        node.create_publisher(Time, topic, LATCHED_QOS).publish(end)
+    node.create_publisher(String, "recorder/topics", LATCHED_QOS).publish(String(data="/chassis/imu\n/coil_current"))
+    start_node("road_excitation")
+    start_node("controller").wait_for("waiting for accelerations")
+    simulator = start_node("simulator", duration=0.05, wait_for_recorder=True)
+    simulator.wait_for("waiting for a road")
+    observer.wait_for(state="waiting")
+    before = len(observer.told)
+    observer.wait_until(lambda: len(observer.told) > before + 6)  # all others have come long since
+    assert observer.values["state"] == "waiting" and float(observer.values["time"]) == 0.0
+    heard = observer.collect(Imu, "chassis/imu", QoSProfile(depth=100))
+    observer.wait_until(lambda: not simulator.running)
+    assert simulator.wait() == 0, simulator.output
+    assert len(heard) == 50
 
 
 def test_latched_text_of_another_node_is_recorded(start_node, observer, tmp_path):

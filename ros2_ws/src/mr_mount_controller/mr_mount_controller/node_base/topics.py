@@ -18,6 +18,7 @@ ROAD_PROFILE = "road_profile"
 VEHICLE_DESCRIPTION = "vehicle_description"
 RECORDED = "recorder/recorded"
 RECORDED_ANSWERS = "recorder/recorded_answers"
+RECORDED_TOPICS = "recorder/topics"
 CLOCK = "clock"
 DIAGNOSTICS = "diagnostics"
 TF = "tf"
@@ -50,6 +51,7 @@ ROAD_STRIPS_TYPE = "visualization_msgs/msg/Marker"
 MEASURED_TYPE = "trackvib_msgs/msg/Measured"
 MEASURED_DESCRIPTION_TYPE = "trackvib_msgs/msg/MeasuredDescription"
 RECORDED_TYPE = "builtin_interfaces/msg/Time"
+RECORDED_TOPICS_TYPE = "std_msgs/msg/String"
 
 CHASSIS_FRAME = "chassis_imu_link"
 HULL_FRAME = "base_link"
@@ -231,6 +233,14 @@ TOPICS = (
         "recorder",
         "as it writes",
         "Time of the latest sample whose answer the bag holds.",
+        ("simulator",),
+    ),
+    Topic(
+        RECORDED_TOPICS,
+        RECORDED_TOPICS_TYPE,
+        "recorder",
+        "as it subscribes",
+        "Full names of the topics that it records, one per line.",
         ("simulator",),
     ),
     Topic(CLOCK, CLOCK_TYPE, "simulator", "100 Hz", "Simulated time.", ("simulator",)),

@@ -17,6 +17,7 @@ from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.closed_loop import run_closed_loop
 from trackvib_sim.simulation.settings import Rates, RunSettings
 from trackvib_sim.simulation.simulation import Simulation
+from trackvib_sim.vehicle.step_size import recommended_rate
 from trackvib_sim.vehicle.system import Operation
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
@@ -41,7 +42,8 @@ def test_gymnasium_has_nothing_to_complain_about(env):
 def test_it_is_the_loop_to_the_bit(env):
     """Under the currents of a law, sensors and coils are those of the loop in one process."""
     vehicle, _ = read_vehicle(find_vehicle())
-    simulation = Simulation(vehicle, RunSettings(Operation(12.0, 1650.0, False, 0.25), Rates(), 1.0))
+    rates = Rates(recommended_rate(vehicle))
+    simulation = Simulation(vehicle, RunSettings(Operation(12.0, 1650.0, False, 0.25), rates, 1.0))
     law = find_law("skyhook")(1e-3, soft_current=1.0, firm_current=3.0)  # which single precision holds
     record = run_closed_loop(simulation, Iso8608Road("E", SEED), law, PERIODS)
     assert set(np.unique(record.current)) == {1.0, 3.0}
@@ -156,7 +158,7 @@ def test_options_that_are_none(env, options, said):
         ({"speed": 99.0}, "'speed' is 99.0, accepted is a number from -25 to 25 m/s"),
         ({"spede": 5.0}, "there is no parameter spede; known are speed, drive"),
         ({"duration": 5.0}, "there is no parameter duration"),
-        ({"control_rate": 999}, "physics_rate 10000 Hz and control_rate 999 Hz conflict"),
+        ({"control_rate": 999}, "physics_rate 5000 Hz and control_rate 999 Hz conflict"),
         ({"vehicle": "nowhere.yaml"}, "nowhere.yaml"),
         ({"road": "Z"}, "Z"),
         ({"render_mode": "human"}, "render_mode is 'human'"),

@@ -44,7 +44,7 @@ def test_defaults_make_a_simulation(vehicle):
         ({("tracks", "links"): 130}, ("tracks.links x tracks.pitch is 14.950 m", "tensioners.travel of 0.1 m")),
         ({("ground", "stiffness"): 1e3, ("ground", "damping"): 0.0}, ("cannot roll at 10 m/s", "vehicle file")),
         ({("bodies", "turret", "inertia"): [8500.0, 11000.0, 30000.0]}, ("body 5 (turret)", "sum of the other two")),
-        ({("coil", "delay"): 1.5e-4}, ("coil.delay is 0.00015 s", "whole number of physics steps of 0.0001 s")),
+        ({("coil", "delay"): 1.3e-7}, ("coil.delay is 1.3e-07 s", "whole number of physics steps of 0.0002 s")),
         ({("hull", "mass"): -1.0}, ("'vehicle_file'", "hull.mass is -1.0", "greater than 0")),
     ],
 )
@@ -61,7 +61,8 @@ def test_impossible_vehicles_are_refused(refusal, vehicle, words):
     [
         ({"engine_speed": 100.0}, ("'engine_speed' is 100.0", "0 or 450 to 2100 r/min")),
         ({"measure_rate": 300}, ("control_rate 1000 Hz and measure_rate 300 Hz conflict",)),
-        ({"control_rate": 999}, ("physics_rate 10000 Hz and control_rate 999 Hz conflict",)),
+        ({"control_rate": 999}, ("physics_rate 5000 Hz and control_rate 999 Hz conflict",)),
+        ({"physics_rate": 999}, ("'physics_rate' is 999, accepted is 0 or at least 1000 Hz",)),
     ],
 )
 def test_values_that_do_not_fit_are_refused(refusal, values, words):

@@ -31,6 +31,7 @@ def copy(tmp_path):
     shutil.copytree(Path(trackvib_sim.__file__).parent, folder, ignore=shutil.ignore_patterns("__pycache__"))
     environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
     environment.pop("NUMBA_CACHE_DIR", None)
+    environment["NUMBA_OPT"] = "0"  # compiled for a few steps only
 
     def run():
         done = subprocess.run(

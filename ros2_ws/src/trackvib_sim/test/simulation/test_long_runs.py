@@ -6,6 +6,7 @@ from trackvib_sim.analysis.settling import settling_time
 from trackvib_sim.analysis.vibration import band_limited, rms
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.open_loop import run_open_loop
+from trackvib_sim.vehicle.step_size import recommended_rate
 
 pytestmark = [pytest.mark.property, pytest.mark.slow(reason="drives for many seconds")]
 
@@ -30,13 +31,15 @@ def run(simulation):
 
 
 @pytest.mark.parametrize("speed", [5.0, 10.0, 20.0])
-def test_result_has_converged_in_the_step(run, speed):
-    """Half the physics step changes no RMS by 5 % or more.
+def test_result_has_converged_in_the_step(run, vehicle, speed):
+    """Half the physics step that is recommended changes no RMS by 5 % or more.
 
-    Two drives count as one: of a single one rounding alone, which is another on each processor, changes it by 4 %.
+    Four drives count as one: of a single one rounding alone, which is another on each processor, changes it by 4 %.
     """
+    rate = recommended_rate(vehicle)
     coarse, fine = (
-        rms(np.concatenate([run(speed, phase, physics)[1] for phase in (0.1, 0.6)])) for physics in (10_000, 20_000)
+        rms(np.concatenate([run(speed, phase, physics)[1] for phase in (0.1, 0.35, 0.6, 0.85)]))
+        for physics in (rate, 2 * rate)
     )
     assert coarse.min() > 0.1
     assert np.abs(fine / coarse - 1.0).max() < 0.05, (coarse, fine)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from trackvib_sim.data import find_vehicle, vehicle_names
 from trackvib_sim.simulation.settings import Rates
-from trackvib_sim.vehicle.step_size import NEEDED, contacts, fastest_contact, longest_step, recommended_rate
+from trackvib_sim.vehicle.step_size import CLEAR, NEEDED, contacts, fastest_contact, longest_step, recommended_rate
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
 
@@ -51,25 +51,42 @@ def test_stiffest_contact_decides(changed):
 @pytest.mark.property
 @pytest.mark.parametrize("shoe_mass", [0.02, 1.0, 5.0, 18.58, 40.0])
 def test_recommended_rate_is_one_that_a_run_takes(changed, shoe_mass):
-    """It is the lowest such rate in whole kHz at which the fastest motion advances by no more than the bound."""
+    """It is the lowest such rate in whole kHz that is fine enough for the fastest motion and clear of instability."""
     vehicle = changed("tracks", shoe_mass=shoe_mass)
-    rate, frequency = recommended_rate(vehicle), fastest_contact(vehicle)[1]
+    rate, frequency, longest = recommended_rate(vehicle), fastest_contact(vehicle)[1], longest_step(vehicle)
     Rates(physics=rate, control=1000)
-    assert rate % 1000 == 0 and frequency / rate <= NEEDED
+    assert rate % 1000 == 0 and frequency / rate <= NEEDED and rate * longest >= CLEAR
     lower = [each for each in range(1000, rate, 1000) if 10**9 % each == 0]
-    assert all(frequency / each > NEEDED for each in lower)
+    assert all(frequency / each > NEEDED or each * longest < CLEAR for each in lower)
 
 
 @pytest.mark.property
-def test_default_rate_suits_the_default_vehicle(vehicle):
-    """Its recommended rate is that of the physics by default, which is stable with room to spare."""
-    assert recommended_rate(vehicle) == Rates().physics
-    assert longest_step(vehicle) > 1.5 / Rates().physics
+def test_damping_alone_asks_for_a_finer_step(changed):
+    """Strongly damped links diverge where their frequency alone would allow a coarser step."""
+    damped = changed("tracks", link_damping=3e5)
+    assert recommended_rate(damped) * longest_step(damped) >= CLEAR
+    assert fastest_contact(damped)[1] / recommended_rate(damped) < 0.5 * NEEDED
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("control", [10, 250, 400, 1000, 5000, 10_000])
+def test_recommended_rate_suits_the_control_rate(vehicle, control):
+    """It is a multiple of it, and no finer than the next such one."""
+    rate = recommended_rate(vehicle, control)
+    Rates(rate, control, 10)
+    assert rate >= recommended_rate(vehicle) and rate <= max(8000, control)
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(("delay", "rate"), [(1e-3, 5000), (5e-4, 8000), (1.5e-4, 20_000), (1.3e-7, 5000)])
+def test_recommended_rate_suits_the_delay_of_the_coils(changed, delay, rate):
+    """It is the lowest that divides the delay into whole steps; for a delay that none divides it is as without."""
+    assert recommended_rate(changed("coil", delay=delay)) == rate
 
 
 @pytest.mark.property
 @pytest.mark.parametrize("name", vehicle_names())
-def test_recommended_rates_are_stable(name):
-    """The step of the recommended rate is below the longest one."""
+def test_library_steps_twice_as_finely_as_vehicles_need(name):
+    """The rate by default of the library and of studies leaves room to spare with every vehicle that is included."""
     vehicle, _ = read_vehicle(find_vehicle(name))
-    assert 1.0 / recommended_rate(vehicle) < longest_step(vehicle)
+    assert 2 * recommended_rate(vehicle) <= Rates().physics

@@ -13,7 +13,7 @@ _SETTINGS = {
     "drive": {"type": click.Path(exists=True, dir_okay=False)},
     "gears": {"is_flag": True},
     "seed": {"type": click.IntRange(0, 10**9)},
-    "physics_rate": {"type": click.IntRange(1000, 200_000)},
+    "physics_rate": {"type": click.IntRange(0, 200_000)},
 }
 
 

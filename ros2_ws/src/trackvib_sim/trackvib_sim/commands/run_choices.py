@@ -10,7 +10,7 @@ from ..analysis.segments import SHORTEST_MEASURING
 from ..analysis.settling import SHORTEST_SETTLING, VEHICLE_BEHIND, settling_time
 from ..nodes.loop_arguments import CONTROLLER, ROAD, SIMULATOR, loop_parameters
 from ..nodes.node_parameters import full_namespace
-from ..nodes.simulator_parameters import PARAMETERS
+from ..nodes.simulator_parameters import PARAMETERS, physics_rate
 from ..road_sources.road_file import RoadError, find_road, road_in_words
 from ..vehicle.drive.drive_file import DriveFileError, drive_text, parse_drive
 from ..vehicle.drive.schedule import arrival_time
@@ -30,7 +30,7 @@ class Choices:
     duration: float
     law: str
     seed: int
-    physics_rate: int
+    physics_rate: int  # Hz
     one_process: bool
     namespace: str  # full name
     measure_rate: int  # Hz, of the running gear; 0 for none
@@ -76,7 +76,8 @@ def choose(given, files, namespace, one_process, view):
             one_process=one_process,
             namespace=parameters.namespace,
             view=view,
-            **{name: own[name] for name in ("speed", "gears", "duration", "physics_rate", "measure_rate")},
+            physics_rate=physics_rate(vehicle, own),
+            **{name: own[name] for name in ("speed", "gears", "duration", "measure_rate")},
         )
         settling = _settling(choices, find_road(choices.road, 2.0 * vehicle.road_wheels.y).begins)
     except (ParameterError, RoadError, DriveFileError, VehicleFileError) as error:

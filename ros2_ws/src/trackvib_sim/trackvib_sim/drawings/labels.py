@@ -84,12 +84,12 @@ class _Paper:
 
     def __init__(self, canvas):
         self._renderer = canvas.get_renderer()
-        pixels = np.asarray(canvas.buffer_rgba())[::-1, :, :3].astype(int)
-        self.ink = np.zeros(pixels.shape[:2])
+        pixels = np.asarray(canvas.buffer_rgba())[::-1, :, :3].astype(np.int16)
+        self.ink = np.zeros(pixels.shape[:2], np.int32)
         for axis in (0, 1):
             differs = np.abs(np.diff(pixels, axis=axis)).max(axis=-1) > _DIFFERENT
             self.ink[: differs.shape[0], : differs.shape[1]] += differs
-        self.words = np.zeros(pixels.shape[:2])
+        self.words = np.zeros_like(self.ink)
         self._ink_sum, self._words_sum = _summed(self.ink), _summed(self.words)
 
     def size(self, label):
@@ -116,11 +116,11 @@ class _Paper:
     def take(self, middle, size, point):
         """Mark the place of words, and their leader's, as taken."""
         (x0, y0), (x1, y1) = self._clip(middle - 0.5 * size), self._clip(middle + 0.5 * size)
-        self.words[y0:y1, x0:x1] = 1.0
+        self.words[y0:y1, x0:x1] = 1
         if point is not None:
             pixels, drawn = self._lines(middle[None], size, point)
             x, y = pixels[drawn].T
-            self.words[y, x] = 1.0
+            self.words[y, x] = 1
         self._words_sum = _summed(self.words)
 
     def _lines(self, middles, size, point):
@@ -143,4 +143,8 @@ class _Paper:
 
 def _summed(pixels):
     """Return the sums over all pixels below and left of each corner."""
-    return np.pad(pixels.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))
+    sums = np.zeros(np.add(pixels.shape, 1), pixels.dtype)
+    inner = sums[1:, 1:]
+    np.cumsum(pixels, axis=1, out=inner)
+    np.cumsum(inner, axis=0, out=inner)
+    return sums

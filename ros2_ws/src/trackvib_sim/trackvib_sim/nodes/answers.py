@@ -8,7 +8,8 @@ from rclpy.duration import Infinite
 from rclpy.qos import QoSCompatibility, QoSProfile, QoSReliabilityPolicy, qos_check_compatible
 from trackvib_msgs.msg import CoilCurrent
 
-_NOT_KNOWN_YET = "_NODE_NAME_UNKNOWN_"  # as DDS calls nodes of which it has heard half
+from .graph import full_name, is_known
+
 _BEST_EFFORT = QoSProfile(depth=LOOP_QOS.depth, reliability=QoSReliabilityPolicy.BEST_EFFORT)
 
 
@@ -44,8 +45,8 @@ class Answers:
 
     def _hear_best_effort(self):
         publishers = self._node.get_publishers_info_by_topic(self.topic)
-        names = [each.node_name for each in publishers if each.qos_profile.reliability == _BEST_EFFORT.reliability]
-        if names and _NOT_KNOWN_YET not in names:
+        names = [full_name(each) for each in publishers if each.qos_profile.reliability == _BEST_EFFORT.reliability]
+        if names and all(map(is_known, names)):
             self._subscriptions.append(self._listen(_BEST_EFFORT))
             self._node.get_logger().warning(
                 f"{readable(', '.join(names))} answers on {topics.COIL_CURRENT} with best effort: its answers are "
@@ -58,10 +59,11 @@ def misfits(node, publishers):
     for publisher in publishers:
         for each in node.get_subscriptions_info_by_topic(publisher.topic_name):
             verdict, reason = qos_check_compatible(publisher.qos_profile, _asked_for(each.qos_profile))
-            if verdict == QoSCompatibility.ERROR and each.node_name != _NOT_KNOWN_YET:
-                name = readable(f"{each.node_namespace.rstrip('/')}/{each.node_name}")
+            name = full_name(each)
+            if verdict == QoSCompatibility.ERROR and is_known(name):
                 yield (
-                    f"{name} receives nothing on {publisher.topic_name}, its QoS is incompatible: {reason.rstrip(' ;')}"
+                    f"{readable(name)} receives nothing on {publisher.topic_name}, its QoS is incompatible: "
+                    f"{reason.rstrip(' ;')}"
                 )
 
 

@@ -80,8 +80,8 @@ ARGUMENTS = {
     "seed": Argument(int, "1", "Seed of the road.", _of((ROAD, "seed"))),
     "physics_rate": Argument(
         int,
-        "10000",
-        "Rate of the physics steps in Hz; `trackvib vehicle` prints the recommended one.",
+        "0",
+        "Rate of the physics steps in Hz; 0 for the recommended one, which `trackvib vehicle` prints.",
         _of((SIMULATOR, "physics_rate")),
     ),
     "control_rate": Argument(

@@ -9,9 +9,11 @@ from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.loop_node import NodeError
 from mr_mount_controller.node_base.qos import CLOCK_QOS, LATCHED_QOS
 from rosgraph_msgs.msg import Clock
+from std_msgs.msg import String
 
 from ..bags.timekeeping import END_OF_TIME
 from ..numerics.units import NANO
+from .graph import is_known, publishing_nodes, subscribing_nodes
 
 # The recorder's port in shared memory holds 512 messages, and a period has some four. What finds it full is sent again
 # after up to 3 s, if its writer still holds it by then, and meanwhile all that follows waits.
@@ -98,11 +100,25 @@ class RecorderLag:
         for topic in self._recorded:
             on_recorded = partial(self._on_recorded, topic)
             node.listen(Time, topic, on_recorded, LATCHED_QOS)
+        self._topics = set()  # full names of those that it records
+        node.listen(String, topics.RECORDED_TOPICS, self._on_topics, LATCHED_QOS)
 
     @property
     def there(self):
         """Whether a recorder has said that all its subscriptions stand."""
         return None not in self._recorded.values()
+
+    @property
+    def reached(self):
+        """Whether it is there and what the node publishes from now on reaches it.
+
+        That its subscriptions know the node's publishers does not mean that these know them, too.
+        """
+        if not (self.there and self._topics):
+            return False
+        recorders = set(filter(is_known, publishing_nodes(self._node, [self._node.resolve_topic_name(topics.RECORDED)])))
+        mine = {publisher.topic_name for publisher in self._node.publishers} & self._topics
+        return all(recorders.intersection(subscribing_nodes(self._node, name)) for name in mine)
 
     def wait(self):
         """Hold the loop while the recorder is too far behind; one that stands still is no longer waited for."""
@@ -138,6 +154,9 @@ class RecorderLag:
         """How far the recorder is behind [ns]: with the samples, or with the answers to them."""
         samples, answers = self._recorded[topics.RECORDED], self._recorded[topics.RECORDED_ANSWERS]
         return max(self._time() - samples, self._heard() - answers)
+
+    def _on_topics(self, names):
+        self._topics = set(names.data.split("\n"))
 
     def _on_recorded(self, topic, written):
         stamp = written.sec * NANO + written.nanosec

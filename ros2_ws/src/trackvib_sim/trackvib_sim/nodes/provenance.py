@@ -4,18 +4,6 @@ from rclpy.parameter import parameter_value_to_python
 from rclpy.parameter_client import AsyncParameterClient
 
 _TIMEOUT = 2.0  # s, for a node to tell its parameters
-_UNKNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's word for it
-
-
-def publishing_nodes(node, topic_names):
-    """Return the full names of all nodes that publish on some topics, sorted."""
-    infos = (info for name in topic_names for info in node.get_publishers_info_by_topic(name))
-    return sorted({f"{info.node_namespace.rstrip('/')}/{info.node_name}" for info in infos})
-
-
-def is_known(name):
-    """Return whether a node's name has arrived: it comes a moment after the node's publishers."""
-    return _UNKNOWN not in name
 
 
 def parameters_of(node, name):

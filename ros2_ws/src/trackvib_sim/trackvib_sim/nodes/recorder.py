@@ -12,14 +12,16 @@ from mr_mount_controller.node_base.parameters import Parameter
 from mr_mount_controller.node_base.plain_text import plain_line
 from mr_mount_controller.node_base.qos import LATCHED_QOS
 from rclpy.serialization import deserialize_message
+from std_msgs.msg import String
 
 from ..bags.errors import BagError
 from ..bags.provenance import write_parameters, write_versions
 from ..bags.timekeeping import Timekeeping
 from ..bags.writing import COMPRESSIONS, BagWriter
 from ..numerics.units import NANO
+from .graph import is_known, publishing_nodes
 from .messages import message_type
-from .provenance import is_known, parameters_of, publishing_nodes
+from .provenance import parameters_of
 from .topic_choice import TopicChoice, subscribe
 
 DEFAULT_TOPICS = [
@@ -85,6 +87,7 @@ class RecorderNode(LoopNode):
         self._times = Timekeeping()
         self._recorded = self.create_publisher(Time, topics.RECORDED, LATCHED_QOS)
         self._recorded_answers = self.create_publisher(Time, topics.RECORDED_ANSWERS, LATCHED_QOS)
+        self._recorded_topics = self.create_publisher(String, topics.RECORDED_TOPICS, LATCHED_QOS)
         self._received, self._failure = 0, None
         self._flushed = time.monotonic()
 
@@ -200,7 +203,10 @@ class RecorderNode(LoopNode):
             self._taken.append(subscription)
             self._announce(topic)
             self._undescribed = True
-        return [name for name in new if name in self._topics]
+        taken = [name for name in new if name in self._topics]
+        if taken:
+            self._recorded_topics.publish(String(data="\n".join(self._topics)))
+        return taken
 
     def _announce(self, topic):
         self._times.announce(topic.type_name)

@@ -178,7 +178,7 @@ class SimulatorNode(LoopNode):
             self.get_logger().info("all partners are present, running")
 
     def _present(self):
-        recorder = self._recorder is None or self._recorder.there
+        recorder = self._recorder is None or self._recorder.reached
         listeners = sum(self._output.listeners())
         return self._simulation.road_is_enough(), self._answers.count(), listeners, recorder
 

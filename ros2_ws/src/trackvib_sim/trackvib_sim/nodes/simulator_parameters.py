@@ -14,9 +14,11 @@ from ..simulation.simulation import Simulation
 from ..vehicle.coil import usable_current
 from ..vehicle.drive.drive_file import DriveFileError, drive_text, parse_drive
 from ..vehicle.drive.limits import FASTEST
+from ..vehicle.step_size import recommended_rate
 from ..vehicle.system import Operation
 from ..vehicle.vehicle_file import VehicleFileError, parse_vehicle, read_vehicle
 
+SLOWEST = 1000  # Hz, of the physics steps
 PARAMETERS = (
     Parameter("vehicle_file", "", "Vehicle file; empty for the default vehicle."),
     Parameter("drive", "", "Drive file: speed, path and engine speed over time or distance; empty for none."),
@@ -66,7 +68,14 @@ PARAMETERS = (
         choices=("hold", "passive", "stop"),
     ),
     Parameter("passive_current", 1.0, "Current before the first answer, and with on_silence passive.", "A", 0.0, 5.0),
-    Parameter("physics_rate", 10_000, "Rate of the physics steps.", "Hz", 1000, 200_000),
+    Parameter(
+        "physics_rate",
+        0,
+        "Rate of the physics steps, 1000 or more; 0 for the recommended rate of the vehicle.",
+        "Hz",
+        0,
+        200_000,
+    ),
     Parameter("control_rate", 1_000, "Rate of the Imu messages and of the control loop.", "Hz", 10, 10_000),
     Parameter("odometry_rate", 100, "Rate of odometry and /clock.", "Hz", 1, 10_000),
     Parameter("view_rate", 0, "Rate of frames, joint states and track links for viewers; 0 for none.", "Hz", 0, 1_000),
@@ -117,10 +126,18 @@ def simulation_of(vehicle, values, drive):
         operation = Operation(
             values["speed"], engine_speed, displacement, values["track_phase"], schedule, values["gears"]
         )
-        rates = Rates(values["physics_rate"], values["control_rate"], values["odometry_rate"])
+        rates = Rates(physics_rate(vehicle, values), values["control_rate"], values["odometry_rate"])
         return Simulation(vehicle, RunSettings(operation, rates, values["passive_current"]))
     except ValueError as error:  # also of the vehicle: its tracks do not fit, it cannot roll
         raise ParameterError(f"simulator: {error}") from None
+
+
+def physics_rate(vehicle, values):
+    """Return the rate of the physics steps [Hz] that parameter values ask for; raises `ParameterError`."""
+    rate = values["physics_rate"]
+    if 0 < rate < SLOWEST:
+        raise ParameterError(f"simulator: parameter 'physics_rate' is {rate}, accepted is 0 or at least {SLOWEST} Hz")
+    return rate or recommended_rate(vehicle, values["control_rate"])
 
 
 def _check_engine_speed(vehicle, item, value):

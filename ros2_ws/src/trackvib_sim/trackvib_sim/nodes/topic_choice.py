@@ -64,7 +64,8 @@ class TopicChoice:
         # rare and telling: who records what a law answers gets what changed of it along
         answers = node.resolve_topic_name(topics.COIL_CURRENT) in self.named
         self._along = {node.resolve_topic_name(topics.LAW_PARAMETERS)} if answers else set()
-        self._own = {node.resolve_topic_name(name) for name in (topics.RECORDED, topics.RECORDED_ANSWERS)}
+        own = topics.RECORDED, topics.RECORDED_ANSWERS, topics.RECORDED_TOPICS
+        self._own = {node.resolve_topic_name(name) for name in own}
 
     def __str__(self):
         found = [f"topics matching '{self._pattern.pattern}'"] if self._pattern else []

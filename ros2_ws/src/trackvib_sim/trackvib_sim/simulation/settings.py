@@ -10,6 +10,8 @@ from ..vehicle.system import Operation
 class Rates:
     """Whole rates [Hz] that divide each other, so that every event falls on an exact nanosecond.
 
+    The physics rate is by default twice that which the included vehicles need, see `vehicle.step_size`.
+
     Raises
     ------
     ValueError

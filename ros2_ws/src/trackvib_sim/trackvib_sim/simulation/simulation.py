@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..numerics.units import NANO
-from ..road.store import RoadStore
+from ..road.store import Road, RoadStore
 from ..rui.sweeps.cells import copy_cells
 from ..vehicle.drive.command import curvature_of
 from ..vehicle.mounting import mounting_of
@@ -87,6 +87,9 @@ class Simulation:
         self._fastest = max(self.system.drive.schedule.speed, key=abs)
         self._expected = []
         self.reset()
+        # loaded now: it takes a tenth of a second, by which a first period in real time would be late
+        nothing = self._single._replace(wanted=np.zeros(1, int))
+        next(self._periods(Road(0, 1.0, np.zeros((2, 2))), nothing))
 
     def reset(self):
         """Restart: time zero, the initial state of every run, no road."""
@@ -150,14 +153,14 @@ class Simulation:
             self.command(*self._expected.pop(0)[1:])
         self.road_at_hand = self._road_around(1)
         if self.road_at_hand is not self._held:
-            self._statuses, self._held = self._periods(self._single), self.road_at_hand
+            self._statuses, self._held = self._periods(self.road_at_hand, self._single), self.road_at_hand
         self._do_periods(self._statuses, demanded, self._single)
 
-    def _periods(self, rows):
-        """Hand all records to the kernel, with the road at hand."""
+    def _periods(self, road, rows):
+        """Hand all records to the kernel."""
         steps, samples = self.settings.rates.steps, (self._next, self.sample)
         return control_periods(
-            self.system, self.state, self.road_at_hand, self._demanded, steps, self._work, self.points, *samples, rows
+            self.system, self.state, road, self._demanded, steps, self._work, self.points, *samples, rows
         )
 
     def _do_periods(self, statuses, demanded, rows):
@@ -173,7 +176,7 @@ class Simulation:
         """
         self.road_at_hand = self._road_around(len(force))
         rows = Rows(np.array([len(speed)]), np.zeros(1, int), force, probed, speed)
-        self._do_periods(self._periods(rows), demanded, rows)
+        self._do_periods(self._periods(self.road_at_hand, rows), demanded, rows)
         self._held = None  # the samples may lie the other way round now
 
     def _end_periods(self, status, done):

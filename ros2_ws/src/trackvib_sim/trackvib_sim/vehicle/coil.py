@@ -48,6 +48,12 @@ class CoilState(NamedTuple):
     field: np.ndarray  # (c,) that would hold the magnetic field as it is; what the mounts feel, A
 
 
+def delay_fits(vehicle, dt):
+    """Return whether the driver's delay is a whole number of physics steps of dt [s]."""
+    steps = vehicle.coil.delay / dt
+    return abs(steps - round(steps)) <= _EXACT
+
+
 def build_coil(vehicle, dt):
     """Return the record for physics steps of dt [s].
 
@@ -57,8 +63,7 @@ def build_coil(vehicle, dt):
         The delay is no whole number of steps.
     """
     c = vehicle.coil
-    delay = round(c.delay / dt)
-    if abs(c.delay / dt - delay) > _EXACT:
+    if not delay_fits(vehicle, dt):
         raise ValueError(f"coil.delay is {c.delay:g} s, must be a whole number of physics steps of {dt:g} s")
     if c.model == "lag":
         gain, least_held, most_held, lag = 0.0, -inf, inf, c.time_constant
@@ -67,7 +72,7 @@ def build_coil(vehicle, dt):
         lag = c.inductance / c.resistance
         gain = (exp(-dt / lag) - exp(-dt / c.loop_time_constant)) / (1.0 - exp(-dt / lag))
     return Coil(
-        delay,
+        round(c.delay / dt),
         *c.current_limits,
         c.slew_rate * dt if c.slew_rate > 0.0 else inf,
         gain,

@@ -1,22 +1,11 @@
-"""The energy account of a moving vehicle: what it holds, what driver and engine give, what turns into heat.
-
-Symplectic Euler is the leapfrog method: places belong to the ends of the steps, speeds to their middle. So the
-account of a step is that of its beginning, with its places and the mean of the speeds before (v) and after (v'): a
-force of those places does the work F (v + v') dt / 2. Springs then close to rounding. A damper has the force of v and
-takes the power
-
-    c v (v + v') / 2 = c ((v + v') / 2)^2 + (c v^2 - c v'^2) / 4,
-
-in terms of what it would take at the mean speeds, at those before and at those after. The last two make up for shocks,
-whose first and last speeds differ: left out, they are 1 % of the drive's work.
-"""
+"""The energy account of a moving vehicle: what it holds, what driver and engine give, what turns into heat."""
 
 from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
 
-from ..numerics.compiled import kernel
+from ..numerics.compiled import inlined, kernel
 from ..numerics.spatial import cross, dot, rotate, symmetric_product, turn_inertia
 from ..rui.sweeps.articulated import CutOffset
 from ..rui.sweeps.cells import get3, get6
@@ -29,7 +18,6 @@ from .hinge_springs import add_hinge_springs
 from .mount_law import mount_force, mount_stored_energy
 from .mounts import mount_current, mount_deflection
 from .suspension import add_suspension
-from .system import new_state, new_work
 from .tracks.nodes import STRIDE, NodeOffset
 from .tracks.one_track import TrackPart
 from .tracks.tracks import TRACK_PARTS, add_tracks
@@ -75,51 +63,15 @@ def energy(account):
     return account.kinetic[0] + account.gravitational[0] + account.stored.sum()
 
 
-class EnergyMeter:
-    """Takes the account of a vehicle step by step; the coils' currents should be constant.
-
-    Attributes
-    ----------
-    account : Account
-        Of the beginning of the last step.
-    """
-
-    def __init__(self, system):
-        self.account = new_account()
-        self._system, self._work = system, new_work(system)
-        self._before, self._state = new_state(system), new_state(system)
-
-    def open(self, state):
-        """Note the `system.State` before a step."""
-        _copy(state, self._before)
-
-    def close(self, state, road):
-        """Fill the account, given the state after the step on a `road.store.Road`."""
-        dissipation = []
-        for share in (0.0, 1.0, 0.5):  # of the speeds after the step; those of the account come last
-            _copy(self._before, self._state)
-            for speed, after in zip(_speeds(self._state), _speeds(state), strict=True):
-                speed += share * (after - speed)
-            _evaluate(self._system, self._state, road, self._work, self.account)
-            dissipation.append(self.account.dissipation.copy())
-        self.account.dissipation[:] += 0.25 * (dissipation[0] - dissipation[1])
-
-
-def _copy(state, to):
-    for source, target in zip(state, to, strict=True):
-        if isinstance(source, np.ndarray):
-            target[:] = source
-        else:
-            _copy(source, target)
-
-
-def _speeds(state):
-    tree, tracks = state.tree, state.tracks
-    nodes = tracks.nodes[:, NodeOffset.VELOCITY * STRIDE : NodeOffset.SHEAR * STRIDE]
-    return tree.velocity, tree.angular_velocity, tree.hinge_rate, nodes, tracks.tensioner.rate
-
-
 @kernel
+def evaluations(system, state, road, work, account):
+    """Fill the account anew at each turn; as `simulation.step.control_periods` it does not own its arguments."""
+    while True:
+        _evaluate(system, state, road, work, account)
+        yield True
+
+
+@inlined
 def _evaluate(system, state, road, work, account):
     """Fill the account for a state as it is; the driver's integral and the shear in it advance by a step."""
     tree, motion, cuts = system.tree, work.motion, work.cuts

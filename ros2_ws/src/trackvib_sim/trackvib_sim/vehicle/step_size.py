@@ -8,8 +8,12 @@ from math import sqrt
 from typing import NamedTuple
 
 from ..numerics.units import NANO
+from .coil import delay_fits
 
-NEEDED = 0.75  # rad, the most that the fastest motion may advance in a step: beyond it the result depends on the step
+# rad, the most that the fastest motion may advance in a step. Up to it no RMS changes by 5 % with a finer step, nor does
+# a third octave up to 315 Hz by 10 % (bench/step_accuracy.py); beyond it steps soon come near the longest stable one.
+NEEDED = 1.25
+CLEAR = 1.15  # longest stable step over the longest recommended one
 KILO = 1000
 RATES = [rate for rate in range(KILO, KILO * KILO + 1, KILO) if NANO % rate == 0]  # Hz
 
@@ -51,14 +55,16 @@ def longest_step(vehicle):
     return min(_longest(vehicle.tracks, contact) for contact in contacts(vehicle))
 
 
-def recommended_rate(vehicle):
+def recommended_rate(vehicle, control=KILO):
     """Return the rate of physics steps [Hz] from which on the result hardly depends on it.
 
-    The fastest undamped motion advances by `NEEDED` a step at most. The rate is a whole number of kHz that divides a
-    second into whole nanoseconds, as rates must.
+    The fastest undamped motion advances by `NEEDED` per step at most, and the step keeps clear of the longest stable
+    one. The rate is a whole number of kHz that divides a second into whole nanoseconds, as rates must; where there is
+    such a one, it is a multiple of the control rate [Hz] and divides the coils' delay into whole steps.
     """
-    needed = fastest_contact(vehicle)[1] / NEEDED
-    return next((rate for rate in RATES if rate >= needed), RATES[-1])
+    needed = max(fastest_contact(vehicle)[1] / NEEDED, CLEAR / longest_step(vehicle))
+    enough = [rate for rate in RATES if rate >= needed] or RATES[-1:]
+    return next((rate for rate in enough if rate % control == 0 and delay_fits(vehicle, 1.0 / rate)), enough[0])
 
 
 def _longest(tracks, contact):

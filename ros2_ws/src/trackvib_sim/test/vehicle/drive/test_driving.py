@@ -7,7 +7,8 @@ from trackvib_sim.simulation.settings import Rates, RunSettings
 from trackvib_sim.simulation.simulation import RunFailed, Simulation
 from trackvib_sim.vehicle.drive.path import SPACING
 from trackvib_sim.vehicle.drive.schedule import Schedule
-from trackvib_sim.vehicle.energy import EnergyMeter, Source, energy
+from trackvib_sim.vehicle.energy import Source, energy
+from trackvib_sim.vehicle.energy_meter import EnergyMeter
 from trackvib_sim.vehicle.system import Operation
 
 pytestmark = pytest.mark.property

@@ -9,7 +9,9 @@ from trackvib_sim.data import find_vehicle
 from trackvib_sim.road.iso8608 import SPACING, Iso8608Road
 from trackvib_sim.road.store import Road
 from trackvib_sim.rui.sweeps.tree import to_lanes
-from trackvib_sim.vehicle.energy import EnergyMeter, Part, Source, energy
+from trackvib_sim.simulation.settings import Rates
+from trackvib_sim.vehicle.energy import Part, Source, energy
+from trackvib_sim.vehicle.energy_meter import EnergyMeter
 from trackvib_sim.vehicle.step_size import recommended_rate
 from trackvib_sim.vehicle.system import Operation, build_system, new_state
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
@@ -91,18 +93,27 @@ def test_drive_work_is_dissipated_or_stored(request, rolling, audited, road_clas
 
 
 @pytest.mark.slow(reason="half a second of drive in single steps")
-@pytest.mark.parametrize(("name", "speed"), [*((name, 10.0) for name in OTHERS), ("m113", 9.98), ("m113", 9.99)])
-def test_drive_work_of_any_vehicle_is_dissipated_or_stored(rolling, audited, level_road, name, speed):
+@pytest.mark.parametrize(
+    ("name", "speed", "rate", "residual"),
+    [
+        *((name, 10.0, lambda _: Rates().physics, 1e-2) for name in OTHERS),
+        ("m113", 9.98, lambda _: Rates().physics, 1e-2),
+        ("m113", 9.99, lambda _: Rates().physics, 1e-2),
+        ("leopard1", 10.0, recommended_rate, 2.5e-2),
+    ],
+)
+def test_drive_work_of_any_vehicle_is_dissipated_or_stored(rolling, audited, level_road, name, speed, rate, residual):
     """To 1 %, wherever the sprockets stand, with or without friction of teeth, rollers, turret, seats and coils.
 
-    And at speeds about 10 m/s: their tracks come to run otherwise from the least difference.
+    And at speeds about 10 m/s: their tracks come to run otherwise from the least difference. At the recommended rate
+    the mean of two steps says less about the time between them.
     """
     vehicle = OTHERS[name]()
-    system, state = rolling(speed, recommended_rate(vehicle), vehicle)
+    system, state = rolling(speed, rate(vehicle), vehicle)
     dissipation, given, held = audited(system, state, level_road, round(0.5 / system.dt))
     drive, lost = trapezoid(given[:, Source.DRIVER], dx=system.dt), trapezoid(dissipation, dx=system.dt, axis=0)
     assert drive > 5e3
-    assert drive == pytest.approx(lost.sum() + held[-1] - held[0], rel=1e-2)
+    assert drive == pytest.approx(lost.sum() + held[-1] - held[0], rel=residual)
     assert lost[Part.TEETH] > 0.0
 
 

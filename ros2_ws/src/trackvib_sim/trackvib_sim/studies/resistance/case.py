@@ -9,7 +9,8 @@ from ...simulation.open_loop import run_open_loop
 from ...simulation.run_in import CannotRoll
 from ...simulation.settings import Rates, RunSettings
 from ...simulation.simulation import RunFailed, Simulation
-from ...vehicle.energy import EnergyMeter, Part, Source, energy
+from ...vehicle.energy import Part, Source, energy
+from ...vehicle.energy_meter import EnergyMeter
 from ...vehicle.system import Operation
 from ..case import GOOD, rates_for, settling
 

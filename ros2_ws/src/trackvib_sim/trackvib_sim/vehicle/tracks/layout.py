@@ -3,6 +3,8 @@
 Places are those in the hull, x and z, at static ride height. A tensioner's travel is that of the idler along x.
 """
 
+from functools import lru_cache
+
 import numpy as np
 from scipy.optimize import brentq
 from scipy.spatial import ConvexHull, QhullError
@@ -138,24 +140,38 @@ def _taut_line(vehicle, side, travel):
             f"under the vehicle's weight, must be less than road_wheels.radius, {wheels.radius:g} m"
         )
     rollers, wheel_x = v.carrier_rollers, v.swing_arms.places[side]
-    circles = [
+    in_place = (
         *((x, wheels.radius, wheels.radius - given) for x in wheel_x),
         *((x, z, rollers.radius) for x, z in (zip(rollers.x, rollers.z, strict=True) if rollers else ())),
-        (v.idlers.x + travel, v.idlers.z, _idler_circle(v)),
         (v.sprockets.x, v.sprockets.z, pitch_radius(v)),
-    ]
+    )
+    idler = _corners(v.idlers.x + travel, v.idlers.z, _idler_circle(v))
+    corner = _outline(np.concatenate((_outline_of(in_place), idler)))
+    lowest_rear = np.argmin(np.hypot(*(corner - (min(wheel_x), given)).T))
+    return _Line(np.roll(corner, -lowest_rear, axis=0))
+
+
+@lru_cache(maxsize=4)
+def _outline_of(circles):
+    """Return the corners (n, 2) round circles (x, z, radius); kept, for an idler is sought beside the same ones."""
+    return _outline(np.concatenate([_corners(*circle) for circle in circles]))
+
+
+def _corners(x, z, radius):
+    """Return the polygon (n, 2) that stands for a circle."""
     angle = 2.0 * np.pi * np.arange(_CORNERS) / _CORNERS
-    round_about = np.stack((np.cos(angle), np.sin(angle)), axis=1)
-    points = np.concatenate([np.array(circle[:2]) + circle[2] * round_about for circle in circles])
+    return np.stack((x + radius * np.cos(angle), z + radius * np.sin(angle)), axis=1)
+
+
+def _outline(points):
+    """Return those of some points (n, 2) that are corners of their convex hull, counter-clockwise."""
     try:
-        corner = points[ConvexHull(points).vertices]
+        return points[ConvexHull(points).vertices]
     except QhullError:
         length, height = np.ptp(points, axis=0)
         raise TrackDoesNotFit(
             f"the running gear is {length:g} m long and {height:g} m high, must leave room within a track"
         ) from None
-    lowest_rear = np.argmin(np.hypot(*(corner - (min(wheel_x), given)).T))
-    return _Line(np.roll(corner, -lowest_rear, axis=0))
 
 
 def _walk(vehicle, side, line, start):
