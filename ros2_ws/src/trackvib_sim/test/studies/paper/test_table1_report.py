@@ -41,7 +41,7 @@ def test_report_sets_rows_beside_the_papers(lines):
     assert f"| H | 20 | {'- | ' * 6} | {ROWS[2].status} |" in lines
     assert "Partly or wholly outside the valid range: class B at 5 m/s, H at 20 m/s." in lines
     assert "| trackvib | 2.000 | - |" in lines and "| power of the speed, 12 numbers | 1.100 | 1.200 |" in lines
-    assert any("over the 1 rows that both have: **2.000**" in line for line in lines)
+    assert any("over the 1 common rows: **2.000**" in line for line in lines)
     assert f"| bias, geometric mean of ours / paper | {' | '.join(['2.000'] * 6)} |" in lines
 
 
