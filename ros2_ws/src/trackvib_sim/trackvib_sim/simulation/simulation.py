@@ -88,8 +88,8 @@ class Simulation:
         self._expected = []
         self.reset()
         # loaded now: it takes a tenth of a second, by which a first period in real time would be late
-        nothing = self._single._replace(wanted=np.zeros(1, int))
-        next(self._periods(Road(0, 1.0, np.zeros((2, 2))), nothing))
+        nowhere, none = Road(0, 1.0, np.zeros((2, 2))), self._single._replace(wanted=np.zeros(1, int))
+        next(self._periods(nowhere, none))
 
     def reset(self):
         """Restart: time zero, the initial state of every run, no road."""
