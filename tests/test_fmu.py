@@ -28,12 +28,14 @@ KEPT = ("HOME", "PATH", "TMPDIR", "LANG")
 
 # Prints nothing of its own on stdout but what is asked for; drives two instances, the second one by half.
 RUN = """
+import faulthandler
 import sys
 import numpy as np
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave
 from fmpy.validation import validate_fmu
 
+faulthandler.enable()
 file, target, steps, long = sys.argv[1], sys.argv[2], int(sys.argv[3]), int(sys.argv[4])
 assert validate_fmu(file) == []
 description = read_model_description(file)
@@ -67,6 +69,9 @@ try:
     one.doStep(0.001 * (steps + long), 0.0004)
 except Exception:
     print("refused")
+for each in (one, other):
+    each.terminate()
+    each.freeInstance()
 print([variable.name for variable in description.modelVariables if variable.causality == "input"])
 """
 

@@ -10,7 +10,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from ..bags.errors import BagError
 from ..console import Description, Terminal
-from ..nodes.loop_arguments import RECORDER
+from ..nodes.loop_arguments import RECORDER, SIMULATOR
 from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses
 from ..vehicle.step_size import recommended_rate
 from .own_domain import own_domain
@@ -44,6 +44,7 @@ def run_loop(choosing, out, viewing=lambda _choices, _vehicle: nullcontext()):
             with writing_to(folder):
                 (folder / "log").mkdir()
             parameters.give(RECORDER, bag=str(folder / "bag"))
+            parameters.give(SIMULATOR, wait_for_view=choices.view)
             console.print(f"closed loop: {choices.title}")
             for note in parameters.notes:
                 console.print(f"warning: {note}", soft_wrap=True)

@@ -21,6 +21,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from ..numerics.units import NANO
 from ..scene.pose_messages import PoseAssembly
+from .partners import LIVE_VIEW
 
 _QOS = QoSProfile(depth=10_000)  # some seconds of samples, as a view that draws is slow for a moment
 _MOUNTS = ""  # no sensor has that name
@@ -59,7 +60,7 @@ class LivePoses:
         self._latest = {}
         self._assembly, self._context = PoseAssembly(vehicle), rclpy.Context()
         rclpy.init(context=self._context, signal_handler_options=SignalHandlerOptions.NO)
-        name = f"live_view_{time.monotonic_ns()}"
+        name = f"{LIVE_VIEW}_{time.monotonic_ns()}"
         self._node = rclpy.create_node(name, namespace=namespace, context=self._context)
         self._executor = EventsExecutor(context=self._context)
         self._executor.add_node(self._node)

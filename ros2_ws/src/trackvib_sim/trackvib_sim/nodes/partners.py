@@ -1,4 +1,4 @@
-"""Whom the simulator waits for at the start, and whom it watches then: another simulator, and the recorder."""
+"""Whom the simulator waits for at the start, and whom it watches then: another simulator, recorder, live view."""
 
 import time
 from functools import partial
@@ -23,6 +23,8 @@ _LOOK = 0.05  # s for what has come meanwhile to be served
 _AGAIN = 1.0  # s after which one that stands still has told its time again
 _TIMEOUT = 10.0  # s without any progress of the recorder
 _LAST = 5.0  # s at the end of a run that shall stop
+LIVE_VIEW = "live_view"  # how the name of its node begins
+_VIEWED = topics.TF, topics.TRACK_LINKS, topics.ROAD_STRIPS, topics.MOUNT_STATE, topics.CHASSIS_IMU, topics.POWERTRAIN_IMU
 _SETTLING = 0.3  # s without a new partner; a controller's two subscriptions are not found in the same instant
 
 
@@ -116,11 +118,9 @@ class RecorderLag:
         """
         if not (self.there and self._topics):
             return False
-        recorders = set(
-            filter(is_known, publishing_nodes(self._node, [self._node.resolve_topic_name(topics.RECORDED)]))
-        )
+        publishers = publishing_nodes(self._node, [self._node.resolve_topic_name(topics.RECORDED)])
         mine = {publisher.topic_name for publisher in self._node.publishers} & self._topics
-        return all(recorders.intersection(subscribing_nodes(self._node, name)) for name in mine)
+        return any(_hears(self._node, recorder, mine) for recorder in filter(is_known, publishers))
 
     def wait(self):
         """Hold the loop while the recorder is too far behind; one that stands still is no longer waited for."""
@@ -164,3 +164,14 @@ class RecorderLag:
         stamp = written.sec * NANO + written.nanosec
         if 0 <= stamp <= self._time() or stamp == END_OF_TIME:  # else it speaks of the time before a reset
             self._recorded[topic] = stamp
+
+
+def view_is_reached(node):
+    """Return whether what the simulator's node publishes for a live view reaches one, in all its parts."""
+    viewed = [node.resolve_topic_name(topic) for topic in _VIEWED]
+    views = [name for name in subscribing_nodes(node, viewed[0]) if name.rpartition("/")[2].startswith(LIVE_VIEW)]
+    return any(_hears(node, view, viewed) for view in views)
+
+
+def _hears(node, name, topic_names):
+    return all(name in subscribing_nodes(node, topic) for topic in topic_names)

@@ -20,7 +20,7 @@ from ..simulation.simulation import RunFailed
 from .answers import Answers, misfits
 from .health import health, summary
 from .output import DIAGNOSTICS_RATE, SimulatorOutput
-from .partners import Gathering, RecorderLag, SecondClock
+from .partners import Gathering, RecorderLag, SecondClock, view_is_reached
 from .run_control import RunControl, services
 from .simulator_parameters import PARAMETERS, prepare
 from .timing import Lateness, PhaseClock
@@ -167,10 +167,11 @@ class SimulatorNode(LoopNode):
 
     def _wait_for_partners(self):
         """Wait until road, controller and recorder are there and nobody else has come for a moment."""
-        recorder = ", a recorder" if self._recorder else ""
+        others = ", a recorder" if self._recorder else ""
+        others += ", a live view" if self.settings["wait_for_view"] else ""
         self.get_logger().info(
             f"waiting for a road on {topics.ROAD_PROFILE}, a controller that subscribes to {topics.CHASSIS_IMU} or "
-            f"{topics.POWERTRAIN_IMU} and answers on {topics.COIL_CURRENT}{recorder}"
+            f"{topics.POWERTRAIN_IMU} and answers on {topics.COIL_CURRENT}{others}"
         )
         gathering = Gathering(self._present)
         self._stand_until(lambda: gathering.complete() or self._second_clock.ahead, self._tell_misfits)
@@ -179,8 +180,9 @@ class SimulatorNode(LoopNode):
 
     def _present(self):
         recorder = self._recorder is None or self._recorder.reached
+        view = not self.settings["wait_for_view"] or view_is_reached(self)
         listeners = sum(self._output.listeners())
-        return self._simulation.road_is_enough(), self._answers.count(), listeners, recorder
+        return self._simulation.road_is_enough(), self._answers.count(), listeners, recorder, view
 
     def _tell_misfits(self):
         """Say once who listens and cannot hear."""

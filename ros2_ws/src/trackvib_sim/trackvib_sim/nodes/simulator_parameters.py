@@ -81,6 +81,7 @@ PARAMETERS = (
     Parameter("view_rate", 0, "Rate of frames, joint states and track links for viewers; 0 for none.", "Hz", 0, 1_000),
     Parameter("measure_rate", 0, "Rate of the running-gear signals; 0 for none.", "Hz", 0, 10_000),
     Parameter("wait_for_recorder", False, "Wait for a recorder before the start, and never run far ahead of it."),
+    Parameter("wait_for_view", False, "Wait for the live view of `trackvib run --view` before the start."),
     *SCHEDULING,
 )
 
@@ -136,7 +137,7 @@ def physics_rate(vehicle, values):
     """Return the rate of the physics steps [Hz] that parameter values ask for; raises `ParameterError`."""
     rate = values["physics_rate"]
     if 0 < rate < SLOWEST:
-        raise ParameterError(f"simulator: parameter 'physics_rate' is {rate}, accepted is 0 or at least {SLOWEST} Hz")
+        raise ParameterError(f"parameter 'physics_rate' is {rate}, accepted is 0 or at least {SLOWEST} Hz")
     return rate or recommended_rate(vehicle, values["control_rate"])
 
 
