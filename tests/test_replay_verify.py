@@ -106,7 +106,10 @@ def told(name, key, value):
         (without("/coil_current"), "no answer to the sample at t = 0.001 s is recorded"),
         (without("/diagnostics"), None),
         (told("parameters of /simulator", "pace", "realtime"), "pace is 'realtime'"),
-        (told("parameters of /simulator", "physics_rate", "10"), "'physics_rate' is 10, accepted is 0 or at least 1000 Hz"),
+        (
+            told("parameters of /simulator", "physics_rate", "10"),
+            "'physics_rate' is 10, accepted is 0 or at least 1000 Hz",
+        ),
         ({"provenance": lambda name, values: None}, "does not hold the parameters of its simulator"),
         ({"message": lambda at, data: data[:30] if at == "/vehicle_description" else data}, "cannot be read"),
     ],

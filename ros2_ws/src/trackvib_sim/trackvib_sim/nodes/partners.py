@@ -24,7 +24,14 @@ _AGAIN = 1.0  # s after which one that stands still has told its time again
 _TIMEOUT = 10.0  # s without any progress of the recorder
 _LAST = 5.0  # s at the end of a run that shall stop
 LIVE_VIEW = "live_view"  # how the name of its node begins
-_VIEWED = topics.TF, topics.TRACK_LINKS, topics.ROAD_STRIPS, topics.MOUNT_STATE, topics.CHASSIS_IMU, topics.POWERTRAIN_IMU
+_VIEWED = (
+    topics.TF,
+    topics.TRACK_LINKS,
+    topics.ROAD_STRIPS,
+    topics.MOUNT_STATE,
+    topics.CHASSIS_IMU,
+    topics.POWERTRAIN_IMU,
+)
 _SETTLING = 0.3  # s without a new partner; a controller's two subscriptions are not found in the same instant
 
 
