@@ -6,6 +6,7 @@ import os
 import numpy as np
 import pytest
 from mcap.reader import make_reader
+from rclpy.parameter_client import AsyncParameterClient
 from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.road_sources.csv_profile import read_csv_profile, write_csv_profile
@@ -110,6 +111,18 @@ def test_a_bags_road_lies_where_it_was_or_elsewhere(recorded_run, tmp_path):
     (tmp_path / "bag.yaml").write_text(f"ground: {{{text}, repeat: true}}\n")
     road = find_road(str(tmp_path / "bag.yaml"), 2.8)
     np.testing.assert_array_equal(road.heights(200, count - 1), road.heights(199 + count, count - 1))
+
+
+@pytest.mark.parametrize(("road", "begins"), [("survey.csv", 10.0), ("E", 16.0)])
+def test_the_road_node_tells_where_its_road_begins(start_node, observer, tmp_path, road, begins):
+    """A profile after 10 m, a class on its full roughness: what an analysis of the bag takes the settling time from."""
+    write_csv_profile(tmp_path / "survey.csv", 0.05 * np.arange(101), np.zeros((2, 101)))
+    start_node("road_excitation", road=tmp_path / road if "." in road else road)
+    client = AsyncParameterClient(observer.node, "road_excitation")
+    observer.wait_until(client.services_are_ready)
+    told = client.get_parameters(["begins"])
+    observer.wait_until(told.done)
+    assert told.result().values[0].double_value == begins
 
 
 @pytest.mark.slow(reason="runs four nodes, three times")

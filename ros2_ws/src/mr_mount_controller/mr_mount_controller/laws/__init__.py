@@ -70,7 +70,8 @@ def _load(name, place):
     try:
         law = getattr(import_module(module), attribute)
     except (Exception, SystemExit) as error:  # whatever the module of a user raises
-        reason = f"{type(error).__name__}: {error}"
+        hint = "; is its folder on PYTHONPATH?" if isinstance(error, ModuleNotFoundError) else ""
+        reason = f"{type(error).__name__}: {error}{hint}"
         raise ParameterError(f"parameter 'law' is {name!r}, which cannot be loaded: {reason}") from None
     if not (isinstance(law, type) and issubclass(law, ControlLaw) and law is not ControlLaw):
         raise ParameterError(f"parameter 'law' is {name!r}, which is not a subclass of {ControlLaw.__name__}")

@@ -121,7 +121,9 @@ def test_settling_follows_from_the_parameters_in_the_bag(speed, seconds):
     """16 m to the full roughness and 2.5 m of vehicle, at least 2 s, as `trackvib run` has it."""
     recording = made_recording(np.arange(1, 11), speed=speed)
     assert settling_of(recording) == pytest.approx(seconds)
-    recording.provenance["parameters of /ns/road_excitation"]["fade"] = "inf"
+    recording.provenance["parameters of /ns/road_excitation"]["begins"] = "40.0"  # of a road from a file
+    assert settling_of(recording) == pytest.approx(42.5 / speed)
+    recording.provenance["parameters of /ns/road_excitation"]["begins"] = "inf"
     assert settling_of(recording) == 2.0
 
 

@@ -118,7 +118,8 @@ def settling_of(recording):
     """
     road, simulator = (parameters_with(recording.provenance, name)[1] for name in ("level_until", "engine_speed"))
     try:
-        full = float(road["level_until"]) + float(road["fade"])
+        # bags of before do not say where a road begins; it was then one of a class
+        full = float(road["begins"] if "begins" in road else float(road["level_until"]) + float(road["fade"]))
         if recording.drive is not None and (recording.drive_file or recording.commands is not None):
             drive = recording.drive
             there = drive.stamp[np.abs(drive.distance) >= full + VEHICLE_BEHIND]

@@ -82,7 +82,10 @@ def _speed(report_data):
     found, simulator = report_data.analysis, _parameters_with(report_data, "engine_speed")
     had = f"{found.speed:.3g} m/s, standard deviation {found.speed_deviation:.2g} m/s"
     words = [] if isnan(found.speed) else [had]
-    words += [f"wanted {simulator['speed']} m/s"] if "speed" in simulator else []
+    if drive := simulator.get("drive"):
+        words.append(f"drive {PurePath(drive).name}")
+    elif "speed" in simulator:
+        words.append(f"wanted {simulator['speed']} m/s")
     return "; ".join(words)
 
 
