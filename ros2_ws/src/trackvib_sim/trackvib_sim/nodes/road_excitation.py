@@ -2,9 +2,9 @@
 
 import sys
 
+from mr_mount_controller.node_base.descriptors import descriptor_of
 from mr_mount_controller.node_base.listener import Refused
 from mr_mount_controller.node_base.loop_node import LoopNode, run_node
-from mr_mount_controller.node_base.descriptors import descriptor_of
 from mr_mount_controller.node_base.parameters import Parameter, ParameterError
 from mr_mount_controller.node_base.plain_text import plain_line
 from mr_mount_controller.node_base.qos import LATCHED_QOS, ROAD_QOS
@@ -49,7 +49,9 @@ class RoadExcitationNode(LoopNode):
         super().__init__()
         s = self.settings
         self._road = _road(s)
-        begins = Parameter("begins", float(self._road.begins), "Where the road proper begins; follows from the road.", "m")
+        begins = Parameter(
+            "begins", float(self._road.begins), "Where the road proper begins; follows from the road.", "m"
+        )
         # for whoever analyses a bag: it says from where on all of the vehicle is on the road
         self.declare_parameter(begins.name, begins.default, descriptor_of(begins, fixed=True), ignore_override=True)
         self._feeder = RoadFeeder(self._road, s["horizon"])
