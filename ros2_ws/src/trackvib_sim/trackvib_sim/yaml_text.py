@@ -4,10 +4,11 @@ One loader for all: vehicle files, calibration plans, a bag's metadata and what 
 """
 
 import re
+from typing import get_args
 
 import yaml
 from mr_mount_controller.node_base.plain_text import readable, shortened
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 
 from .ordinary_file import open_ordinary
 
@@ -15,7 +16,7 @@ LARGEST = 1 << 20  # bytes of a text
 DEEPEST = 50  # levels
 LONGEST_NUMBER = 100  # characters; a number to base 60 takes time with the square of them
 _LONGEST_REASON = 500  # characters
-_MOST_ERRORS = 20
+_MOST_ERRORS = 6
 
 
 class YamlTextError(ValueError):
@@ -65,7 +66,7 @@ def validated(model, text, name, kinds=None):
     except ValidationError as error:
         errors = error.errors(include_url=False, include_context=False)
     more = [f"{name}: and {len(errors) - _MOST_ERRORS} more items"] if len(errors) > _MOST_ERRORS else []
-    sentences = [_sentence(name, each, kinds or {}) for each in errors[:_MOST_ERRORS]]
+    sentences = [_sentence(name, each, kinds or {}, model) for each in errors[:_MOST_ERRORS]]
     raise YamlTextError("\n".join(map(readable, sentences + more)))
 
 
@@ -83,16 +84,35 @@ def _bounded(text, name, read):
         raise YamlTextError(readable(f"{name}: not a YAML file: {reason}")) from None
 
 
-def _sentence(name, error, kinds):
+def _sentence(name, error, kinds, model):
     loc = error["loc"]
     places = [str(part) for place, part in enumerate(loc) if place != kinds.get(loc[0])]
     item, value = shortened(".".join(places)), shortened(repr(error["input"]))
     reason = shortened(error["msg"].removeprefix("Value error, "), _LONGEST_REASON)
     if error["type"] in ("model_type", "model_attributes_type"):
         return f"{name}: {item or 'the whole file'} is {value}: must be a section with items"
-    if error["type"] in ("missing", "value_error"):
+    if error["type"] == "extra_forbidden":
+        return f"{name}: {item} is {value}: unknown item; accepted are {', '.join(_accepted(model, loc))}"
+    if error["type"] == "missing":
+        return f"{name}: {item} is missing"
+    if error["type"] == "value_error":
         return f"{name}: {item}: {reason}" if item else f"{name}: {reason}"
     return f"{name}: {item or 'the whole file'} is {value}: {reason}"
+
+
+def _accepted(model, loc):
+    """Return the names of all items of the section that one at `loc` stands in, of every kind that it may be of."""
+    sections = [model]
+    for part in loc[:-1]:  # also numbers in lists, names that a user gives, and words for kinds
+        fields = [field for each in sections for name, field in each.model_fields.items() if part in (name, field.alias)]
+        sections = [found for field in fields for found in _sections(field.annotation)] or sections
+    return sorted({field.alias or name for each in sections for name, field in each.model_fields.items()})
+
+
+def _sections(annotation):
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    return [found for part in get_args(annotation) for found in _sections(part)]
 
 
 def _check_events(text):
