@@ -43,6 +43,7 @@ class SimulatorNode(LoopNode):
         self._waits_for_answers = s["pace"] == "lockstep"
         self._second_clock = SecondClock(self, self._time)  # it listens while the simulation is prepared
         self._simulation, usable, vehicle_text, drive_text = prepare(s)
+        self._simulation.load()
         self._usable = usable
         self._begin_counts()
         self._warned = False  # of several controllers

@@ -87,9 +87,6 @@ class Simulation:
         self._fastest = max(self.system.drive.schedule.speed, key=abs)
         self._expected = []
         self.reset()
-        # loaded now: it takes a tenth of a second, by which a first period in real time would be late
-        nowhere, none = Road(0, 1.0, np.zeros((2, 2))), self._single._replace(wanted=np.zeros(1, int))
-        next(self._periods(nowhere, none))
 
     def reset(self):
         """Restart: time zero, the initial state of every run, no road."""
@@ -104,6 +101,11 @@ class Simulation:
         self._work, self._single = new_work(self.system), one_row(self.sample)
         self._demanded = np.zeros(self.mounting.coils)
         observe(self.system, self.state, self._work.motion, self.sample)
+
+    def load(self):
+        """Load the compiled periods now: it takes a tenth of a second, by which a first one in real time would be late."""
+        nowhere, none = Road(0, 1.0, np.zeros((2, 2))), self._single._replace(wanted=np.zeros(1, int))
+        next(self._periods(nowhere, none))
 
     @property
     def time(self) -> int:
