@@ -103,7 +103,7 @@ class Simulation:
         observe(self.system, self.state, self._work.motion, self.sample)
 
     def load(self):
-        """Load the compiled periods now: it takes a tenth of a second, by which a first one in real time would be late."""
+        """Load the compiled periods: that takes a tenth of a second, by which the first would be late in real time."""
         nowhere, none = Road(0, 1.0, np.zeros((2, 2))), self._single._replace(wanted=np.zeros(1, int))
         next(self._periods(nowhere, none))
 
