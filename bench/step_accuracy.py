@@ -137,9 +137,9 @@ def _draw(rows, unit, vehicles, path):
             if rate == recommended_rate(vehicles[name]):
                 axes.plot(x, y, "o", markersize=12, fillstyle="none", color=line[0].get_color())
     axes.axhline(5.0, color="0.5", linestyle="--", linewidth=1)
-    axes.text(axes.get_xlim()[1], 5.0, "stated accuracy ", ha="right", va="bottom", color="0.4")
-    axes.set_ylim(0.0, None)
-    axes.legend(title="ringed: recommended rate", frameon=False)
+    axes.text(axes.get_xlim()[0], 5.0, " stated accuracy", va="bottom", color="0.4")
+    axes.set_ylim(0.0, 1.4 * axes.get_ylim()[1])  # room for the legend
+    axes.legend(title="ringed: recommended rate", ncols=2, frameon=False)
     with new_file(path) as file:
         figure.savefig(file, format="png", dpi=120)
 
