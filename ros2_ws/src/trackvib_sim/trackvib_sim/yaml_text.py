@@ -104,7 +104,9 @@ def _accepted(model, loc):
     """Return the names of all items of the section that one at `loc` stands in, of every kind that it may be of."""
     sections = [model]
     for part in loc[:-1]:  # also numbers in lists, names that a user gives, and words for kinds
-        fields = [field for each in sections for name, field in each.model_fields.items() if part in (name, field.alias)]
+        fields = [
+            field for each in sections for name, field in each.model_fields.items() if part in (name, field.alias)
+        ]
         sections = [found for field in fields for found in _sections(field.annotation)] or sections
     return sorted({field.alias or name for each in sections for name, field in each.model_fields.items()})
 
