@@ -20,7 +20,8 @@ from statistics import median
 import click
 from machine import best_times, machine
 from mr_mount_controller.laws import find_law
-from mr_mount_controller.laws.base import Sample, answer
+from mr_mount_controller.laws.base import Sample
+from mr_mount_controller.laws.running import answer
 from rich.console import Console
 from rich.progress import track
 from rich.table import Table

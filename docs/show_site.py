@@ -1,6 +1,7 @@
 """`./trackvib docs`: builds the documents' site, and shows it on this machine."""
 
 import os
+import signal
 import sys
 from pathlib import Path
 
@@ -31,4 +32,5 @@ def main(folder, port):
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # `| head` ends it quietly
     main(prog_name="trackvib docs")

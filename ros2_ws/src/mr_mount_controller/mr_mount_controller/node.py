@@ -2,6 +2,7 @@
 
 import sys
 import time
+from contextlib import contextmanager
 from statistics import mean
 from typing import NamedTuple
 
@@ -12,7 +13,8 @@ from sensor_msgs.msg import Imu
 from trackvib_msgs.msg import CoilCurrent, MountDescription
 
 from .laws import find_law, known_laws
-from .laws.base import LawError, Sample, answer, changed_law
+from .laws.base import LawError, Sample
+from .laws.running import answer, changed_law, law_code, make_law, run_law_on
 from .mounting import MOST_COILS, described, undescribed
 from .node_base.cdr import NANO
 from .node_base.listener import Refused
@@ -57,6 +59,14 @@ def _reading(imu):
     return Reading(stamp, tuple(numbers[3:]), tuple(numbers[:3]))
 
 
+@contextmanager
+def _law_ends_node():
+    try:
+        yield
+    except LawError as error:
+        raise NodeError(str(error)) from error
+
+
 class ControllerNode(LoopNode):
     """Runs one law on the Imu messages of chassis and powertrain that carry the same stamp."""
 
@@ -67,7 +77,7 @@ class ControllerNode(LoopNode):
         law = find_law(self.settings["law"])
         values = self.declare_changeable(law.parameters, self._change_law)
         self._period = round(NANO / self.settings["sample_rate"])
-        self._law = law(self._period / NANO, **values)
+        self._law = make_law(law, self._period / NANO, values)
         self._chassis = self._powertrain = None  # latest readings
         self._last = None  # stamp answered last, ns
         self._sample = None  # the sample answered last
@@ -118,7 +128,8 @@ class ControllerNode(LoopNode):
 
     def _begin_on(self, mounting):
         self._mounting, self._last, self._sample = mounting, None, None
-        self._law.run_on(mounting)
+        with _law_ends_node():
+            run_law_on(self._law, mounting)
         answer = CoilCurrent(current=[0.0] * mounting.coils)
         self._answer = PackedMessage(answer, {"current": (mounting.coils,)}, ("header.stamp", "sample_stamp"))
         self.get_logger().info(f"coils: {', '.join(mounting.names[: mounting.coils]) or 'none'}")
@@ -164,15 +175,14 @@ class ControllerNode(LoopNode):
             self._wait_for_listeners()
         elif stamp <= self._last:
             self.get_logger().info("the sample stamps start again: law reset")
-            self._law.reset()
+            with _law_ends_node(), law_code(self._law, f"when it was reset at t = {sample.time:.3f} s"):
+                self._law.reset()
             self._wait_for_listeners()
         else:
             self._check_step(stamp - self._last)
         self._last, self._sample = stamp, sample
-        try:
+        with _law_ends_node():
             currents = answer(self._law, sample)
-        except LawError as error:
-            raise NodeError(str(error)) from None
         self._sent = self._answer.fill(stamp, current=currents)
         self._currents.publish(self._sent)
 

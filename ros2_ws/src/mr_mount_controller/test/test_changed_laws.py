@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 from mr_mount_controller.laws import find_law, known_laws
-from mr_mount_controller.laws.base import ControlLaw, Sample, answer, changed_law
+from mr_mount_controller.laws.base import ControlLaw, Sample
+from mr_mount_controller.laws.running import answer, changed_law
 from mr_mount_controller.mounting import PAIR
 from mr_mount_controller.node_base.parameters import Parameter, ParameterError
 

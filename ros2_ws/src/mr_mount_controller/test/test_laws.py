@@ -7,8 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mr_mount_controller.laws import base, find_law, known_laws, shipped_laws
-from mr_mount_controller.laws.base import ControlLaw, LawError, Sample, answer
+from mr_mount_controller.laws.base import ControlLaw, LawError, Sample
 from mr_mount_controller.laws.passive import Passive
+from mr_mount_controller.laws.running import answer
 from mr_mount_controller.laws.skyhook import Skyhook
 from mr_mount_controller.mount import HIGHEST_CURRENT, LOWEST_CURRENT
 from mr_mount_controller.mounting import PAIR, Kind, Mount, Mounting, undescribed

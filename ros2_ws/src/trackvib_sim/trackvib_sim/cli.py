@@ -10,8 +10,9 @@ from importlib import import_module
 import click
 from mr_mount_controller.node_base.plain_text import plain_line
 
-from .commands.endings import INTERRUPTED, fail, say
-from .commands.lasting_output import OutputLost, lasting_output
+from .commands.endings import INTERRUPTED, UNREAD, fail, say
+from .commands.lasting_output import OutputLost, OutputUnread, lasting_output
+from .commands.verbs import Verbs
 
 # Where each verb's command line lies; it is imported when the verb is asked for, so that no verb waits for another's.
 _VERBS = {
@@ -30,10 +31,10 @@ _VERBS = {
 }
 
 
-class _Verbs(click.Group):
+class _AllVerbs(Verbs):
     """Ctrl-C at any moment ends a verb in one line, with the exit code that shells know it by.
 
-    So does standard output that breaks off, once the verb's work is done.
+    So does standard output that breaks off, once the verb's work is done; quietly where nobody reads it any more.
     """
 
     def list_commands(self, context):
@@ -44,19 +45,34 @@ class _Verbs(click.Group):
             return getattr(import_module(f".commands.{_VERBS[name]}", __package__), name)
         return None
 
+    def resolve_command(self, context, arguments):
+        if arguments[0] not in _VERBS:
+            raise click.NoSuchCommand(arguments[0], possibilities=_VERBS, ctx=context)
+        return super().resolve_command(context, arguments)
+
     def make_context(self, *arguments, **extra):
-        with _plain_errors():
+        with _plain_errors(), _ended_output():
             return super().make_context(*arguments, **extra)
 
     def invoke(self, context):
         try:
-            with _plain_errors(), lasting_output():
+            with _plain_errors(), _ended_output():
                 return super().invoke(context)
-        except KeyboardInterrupt:
-            say("interrupted")
+        except KeyboardInterrupt as interrupt:
+            say("; ".join(("interrupted", *interrupt.args)))
             sys.exit(INTERRUPTED)
-        except OutputLost as error:
-            fail(error)
+
+
+@contextmanager
+def _ended_output():
+    """Let the block do all its work; end the process after it if not all that it printed has arrived."""
+    try:
+        with lasting_output():
+            yield
+    except OutputUnread:
+        sys.exit(UNREAD)
+    except OutputLost as error:
+        fail(error)
 
 
 @contextmanager
@@ -69,7 +85,7 @@ def _plain_errors():
         raise
 
 
-@click.group(cls=_Verbs, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.group(cls=_AllVerbs, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 def main():
     """Vibration laboratory for a tracked vehicle's powertrain on magnetorheological mounts."""
     # An orderly end, as on Ctrl-C, when the terminal is closed or the process is asked to end; a job started in the

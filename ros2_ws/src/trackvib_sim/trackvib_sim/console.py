@@ -1,13 +1,23 @@
 """The terminal: one kind of console for all verbs, on which text is text.
 
 It may come from a bag, a file or a name that others chose, so nothing in it is read as markup, and control characters
-are written out. Errors take the same care (`commands.endings`).
+are written out. Errors take the same care (`commands.endings`). Nothing is cut: in a pipe or a file a table is as wide
+as it needs, in a narrow terminal its words are folded and its numbers stay whole.
 """
 
+import os
+import re
+
 from mr_mount_controller.node_base.plain_text import readable
+from rich.cells import cell_len
 from rich.console import Console
 from rich.progress import BarColumn, Progress, ProgressColumn, TaskProgressColumn, TimeRemainingColumn
+from rich.table import Table
 from rich.text import Text
+
+_UNLIMITED = 100_000  # columns of what is no terminal
+_SHORTEST_FOLD = 12  # letters of a word that are kept together if there is room at all
+_NUMBER = re.compile(r"[+\-−±*]*[0-9]")  # what begins like this is a number
 
 
 class Terminal(Console):
@@ -15,10 +25,52 @@ class Terminal(Console):
 
     def __init__(self, **options):
         super().__init__(highlight=False, markup=False, emoji=False, **options)
+        if "width" not in options and "COLUMNS" not in os.environ and not self.is_terminal:
+            self.width = _UNLIMITED
+
+    def print(self, *objects, **options):
+        """Print as rich does; tables are fitted to the width."""
+        tables = [each for each in objects if isinstance(each, Table)]
+        for table in tables:
+            _fit(table, self.width)
+        super().print(*objects, **({"crop": False} if tables else {}), **options)
 
     def render_str(self, text, **options):
         """Return what `print` and tables show for a string."""
         return super().render_str(readable(text), **{**options, "markup": False, "emoji": False})
+
+
+def _fit(table, width):
+    """Set the widths of a table's columns so that it is as wide as the terminal at most, or as its numbers need."""
+    columns = [[_plain(each) for each in (column.header, *column.cells)] for column in table.columns]
+    widths = [max(map(_longest_line, texts)) for texts in columns]
+    least = [_least(texts, column.justify == "right") for texts, column in zip(columns, table.columns, strict=True)]
+    room = width - 3 * len(columns) - 1  # without lines and blanks between the columns
+    while sum(widths) > room:
+        spare = [(wide, k) for k, (wide, low) in enumerate(zip(widths, least, strict=True)) if wide > low]
+        if not spare:
+            break
+        widths[max(spare)[1]] -= 1
+    for column, wide in zip(table.columns, widths, strict=True):
+        column.width, column.overflow = wide, "fold"
+    table.width = sum(widths) + 3 * len(columns) + 1
+
+
+def _least(texts, of_numbers):
+    """The least width of a column of these texts, the heading first; a number in it may be several words."""
+    head, *cells = texts
+    words = [word for text in texts for word in text.split()]
+    whole = cells if of_numbers else words
+    numbers = (cell_len(text) for text in whole if _NUMBER.match(text))
+    return max(*numbers, *(min(cell_len(word), _SHORTEST_FOLD) for word in words), 1, 1)
+
+
+def _longest_line(text):
+    return max(map(cell_len, text.split("\n")))
+
+
+def _plain(cell):
+    return cell.plain if isinstance(cell, Text) else readable(str(cell))
 
 
 class Description(ProgressColumn):

@@ -8,6 +8,7 @@ from typing import get_args
 
 import yaml
 from mr_mount_controller.node_base.plain_text import readable, shortened
+from mr_mount_controller.node_base.suggestion import suggestion
 from pydantic import BaseModel, ValidationError
 
 from .ordinary_file import open_ordinary
@@ -92,7 +93,9 @@ def _sentence(name, error, kinds, model):
     if error["type"] in ("model_type", "model_attributes_type"):
         return f"{name}: {item or 'the whole file'} is {value}: must be a section with items"
     if error["type"] == "extra_forbidden":
-        return f"{name}: {item} is {value}: unknown item; accepted are {', '.join(_accepted(model, loc))}"
+        accepted = _accepted(model, loc)
+        meant = suggestion(str(loc[-1]), accepted)
+        return f"{name}: {item} is {value}: unknown item; accepted are {', '.join(accepted)}{meant}"
     if error["type"] == "missing":
         return f"{name}: {item} is missing"
     if error["type"] == "value_error":

@@ -4,7 +4,9 @@ from importlib import import_module
 from importlib.metadata import entry_points
 
 from ..node_base.parameters import Parameter, ParameterError
+from ..node_base.suggestion import suggestion
 from .base import ControlLaw, LawError, Sample
+from .failures import FAILURES, reason_of
 
 __all__ = ["ControlLaw", "LawError", "Parameter", "ParameterError", "Sample", "find_law", "known_laws", "shipped_laws"]
 
@@ -61,18 +63,26 @@ def find_law(name: str) -> type[ControlLaw]:
     if not name.partition(":")[2]:
         raise ParameterError(
             f"parameter 'law' is {name!r}, must be one of {', '.join(known_laws())}, or package.module:Class"
+            f"{suggestion(name, known_laws())}"
         )
     return _load(name, name)
 
 
 def _load(name, place):
     module, _, attribute = place.partition(":")
+    loaded = None
     try:
-        law = getattr(import_module(module), attribute)
-    except (Exception, SystemExit) as error:  # whatever the module of a user raises
+        loaded = import_module(module)
+        law = getattr(loaded, attribute)
+    except FAILURES as error:  # whatever the module of a user raises
         hint = "; is its folder on PYTHONPATH?" if isinstance(error, ModuleNotFoundError) else ""
-        reason = f"{type(error).__name__}: {error}{hint}"
-        raise ParameterError(f"parameter 'law' is {name!r}, which cannot be loaded: {reason}") from None
-    if not (isinstance(law, type) and issubclass(law, ControlLaw) and law is not ControlLaw):
+        meant = suggestion(attribute, [key for key, value in vars(loaded).items() if _is_law(value)]) if loaded else ""
+        reason = f"{reason_of(error)}{hint}{meant}"
+        raise ParameterError(f"parameter 'law' is {name!r}, which cannot be loaded: {reason}") from error
+    if not _is_law(law):
         raise ParameterError(f"parameter 'law' is {name!r}, which is not a subclass of {ControlLaw.__name__}")
     return law
+
+
+def _is_law(value):
+    return isinstance(value, type) and issubclass(value, ControlLaw) and value is not ControlLaw

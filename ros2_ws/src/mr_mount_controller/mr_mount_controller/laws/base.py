@@ -1,13 +1,11 @@
 """The contract between a control law and whoever runs it."""
 
 from collections.abc import Sequence
-from math import isfinite
 from typing import NamedTuple
 
 import numpy as np
 
 from ..mounting import PAIR
-from ..node_base.parameters import ParameterError
 
 
 class Sample(NamedTuple):
@@ -32,7 +30,9 @@ class Sample(NamedTuple):
 
 
 class LawError(RuntimeError):
-    """A law returned something that is not a current.
+    """A law raised an exception, or returned something that is not a current.
+
+    The message is one sentence with the law's name, the time of the sample, and file and line of the law's own code.
 
     Examples
     --------
@@ -91,7 +91,7 @@ class ControlLaw:
     * The same samples give the same currents, to the last bit, wherever the law runs. It must therefore not read a
       clock, draw unseeded random numbers, start threads, read files in `update`, or depend on the order of a set.
     * It may keep anything in `self`, but must not change the sample, its class or its module.
-    * It need not catch exceptions: one that `update` raises ends the node with a traceback.
+    * It need not catch exceptions: one that `update` raises ends the run with `LawError`, which tells file and line.
 
     See Also
     --------
@@ -139,51 +139,3 @@ class ControlLaw:
     def update(self, sample: Sample) -> float | Sequence[float] | np.ndarray:
         """Return the current [A] that answers a `Sample`: one for all coils, or one for each."""
         raise NotImplementedError
-
-
-def changed_law(law, values):
-    """Return a law that goes on for another one with other values of some parameters, by name.
-
-    Raises
-    ------
-    ParameterError
-        They do not go together, or the law cannot be made with them.
-    """
-    kept = {parameter.name: getattr(law, parameter.name) for parameter in law.parameters}
-    try:
-        changed = type(law)(law.period, **{**kept, **values})
-        changed.run_on(law.mounting)
-        changed.continue_from(law)
-    except ParameterError:
-        raise
-    except Exception as error:  # whatever a user's law raises must not end a run that goes well
-        raise ParameterError(
-            f"law {type(law).__name__} cannot take {values}: {type(error).__name__}: {error}"
-        ) from None
-    return changed
-
-
-def answer(law, sample):
-    """Return the law's currents, one per coil [A], for a sample.
-
-    Raises
-    ------
-    LawError
-        The law returned something else than one finite number, or one for each coil.
-    """
-    result, coils = law.update(sample), law.mounting.coils
-    if type(result) is float and isfinite(result):  # what most laws answer, every period
-        return np.full(coils, result)
-    try:
-        numbers = np.asarray(result)
-        # digits in a text and truth values are no currents, though numpy would make numbers of them
-        numbers = numbers.astype(float) if numbers.dtype.kind in "fiu" else np.full(1, np.nan)
-        currents = np.broadcast_to(numbers, (coils,))
-    except (TypeError, ValueError):
-        numbers = np.full(1, np.nan)
-    if not np.isfinite(numbers).all():
-        raise LawError(
-            f"law {type(law).__name__} answered {result!r} at t = {sample.time:.3f} s, "
-            f"must be one finite current [A], or {coils} of them, one per coil"
-        )
-    return currents

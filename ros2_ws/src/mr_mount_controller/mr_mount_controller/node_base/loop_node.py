@@ -3,6 +3,7 @@
 import gc
 import signal
 import sys
+import traceback
 from pathlib import Path
 
 import rclpy
@@ -10,13 +11,14 @@ from rcl_interfaces.msg import SetParametersResult
 from rclpy._rclpy_pybind11 import RCLError, UnknownROSArgsError
 from rclpy.exceptions import ParameterException
 from rclpy.experimental import EventsExecutor
-from rclpy.logging import LoggingSeverity, set_logger_level
+from rclpy.logging import LoggingSeverity, get_logger, set_logger_level
 from rclpy.node import Node
 from rclpy.parameter import Parameter as RosParameter
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
 from .descriptors import descriptor_of
+from .endings import ERROR, REFUSED, TRACEBACK
 from .help_text import help_text, wants_help
 from .listener import Listener
 from .parameter_files import given_by_wildcard, without_effect
@@ -24,6 +26,7 @@ from .parameters import Parameter, ParameterError
 from .patience import Patience
 from .plain_text import plain_line, readable
 from .shared_memory import remove_unfinished_segments
+from .suggestion import suggestion
 
 _ACCEPTED = (
     "accepted are --ros-args and then -p NAME:=VALUE, -r FROM:=TO, --params-file FILE, --log-level LEVEL "
@@ -70,6 +73,8 @@ class LoopNode(Node):
         self._changeable, self._change = {}, None
         self.settings = {parameter.name: self._declare(parameter) for parameter in self.PARAMETERS}
         self._inputs = []
+        self.failure = None  # what a callback has raised to end the node
+        self._idle = Future()  # done, if a callback ends the node
         self.patience = None
         self.stopping = lambda: False
 
@@ -107,11 +112,21 @@ class LoopNode(Node):
         if self.has_parameter(asked.name):
             raise ParameterError(f"parameter '{asked.name}' is fixed while the node runs; give it at the node's start")
         known = ", ".join(sorted(self._changeable)) or "none"
-        raise ParameterError(f"unknown parameter '{asked.name}'; parameters that may change are: {known}")
+        meant = suggestion(asked.name, self._changeable)
+        raise ParameterError(f"unknown parameter '{asked.name}'; parameters that may change are: {known}{meant}")
 
     def listen(self, message_type, topic, on_message, qos, read=None):
         """Subscribe as `Listener` does; returns the subscription."""
-        self._inputs.append(Listener(self, message_type, topic, on_message, qos, read))
+
+        def take(message):
+            try:
+                if self.failure is None:
+                    on_message(message)
+            except NodeError as error:  # raised later: what leaves a callback is logged at length
+                self.failure = error
+                self._idle.set_result(None)
+
+        self._inputs.append(Listener(self, message_type, topic, take, qos, read))
         return self._inputs[-1].subscription
 
     @property
@@ -130,7 +145,8 @@ class LoopNode(Node):
         for name in unknown:
             if name not in of_others:
                 known = ", ".join(sorted(self.settings))
-                raise ParameterError(f"{self.get_name()}: unknown parameter '{name}'; known are {known}")
+                meant = suggestion(name, self.settings)
+                raise ParameterError(f"{self.get_name()}: unknown parameter '{name}'; known are {known}{meant}")
         if unknown:
             names = readable(", ".join(sorted(unknown)))
             self.get_logger().warning(
@@ -141,7 +157,14 @@ class LoopNode(Node):
         """Do the node's work until it is done or `self.stopping()`; by default answer callbacks."""
         while not self.stopping():
             # all that comes in one go; a call for each message costs as much as the message
-            self.executor.spin_until_future_complete(Future(), timeout_sec=_TICK)
+            self._idle = Future()
+            self.executor.spin_until_future_complete(self._idle, timeout_sec=_TICK)
+            self.raise_failure()
+
+    def raise_failure(self):
+        """Raise what a callback has raised to end the node."""
+        if self.failure is not None:
+            raise self.failure
 
     def close(self):
         """Finish what must not be left half done; called once, whatever ended the node."""
@@ -234,10 +257,16 @@ def run_node(make_node, args=None, companions=()):
     try:
         start_ros(arguments)
         executor = EventsExecutor()
+
+        def spin(timeout):
+            executor.spin_once(timeout_sec=timeout)
+            for node in nodes:
+                node.raise_failure()
+
         for make in (*companions, make_node):
             nodes.append(make())
             nodes[-1].refuse_unknown_parameters(arguments)
-            nodes[-1].prepare(lambda timeout: executor.spin_once(timeout_sec=timeout), lambda: bool(stop))
+            nodes[-1].prepare(spin, lambda: bool(stop))
             executor.add_node(nodes[-1])
         for words in without_effect(arguments, [node.get_fully_qualified_name() for node in nodes]):
             nodes[-1].get_logger().warning(plain_line(words))
@@ -251,8 +280,11 @@ def run_node(make_node, args=None, companions=()):
                     node.get_logger().warning(f"{node.refused} messages were refused")
             executor.shutdown()
     except (ParameterError, NodeError, RCLError) as error:
-        print(f"error: {plain_line(str(error))}", file=sys.stderr)
-        return 2 if isinstance(error, ParameterError) else 1
+        if error.__cause__ is not None:  # of a user's own code
+            for line in "".join(traceback.format_exception(error.__cause__)).splitlines():
+                get_logger(TRACEBACK).debug(plain_line(line))
+        print(f"{ERROR}{plain_line(str(error))}", file=sys.stderr)
+        return REFUSED if isinstance(error, ParameterError) else 1
     finally:
         for node in nodes:
             node.destroy_node()

@@ -112,7 +112,13 @@ def segments_of(stamp, segments):
 
 
 def settling_of(recording):
-    """Return the time [s] that the recorded run settles, by the parameters of its nodes; the shortest if unknown.
+    """Return the time [s] that the recorded run settles, by the parameters of its nodes; the shortest if unknown."""
+    known = known_settling(recording)
+    return SHORTEST_SETTLING if known is None else known
+
+
+def known_settling(recording):
+    """Return the time [s] that the recorded run settles, by the parameters of its nodes; None if these do not tell it.
 
     Where the speed followed a drive file or commands it is when the vehicle was on the full roughness.
     """
@@ -127,7 +133,7 @@ def settling_of(recording):
             return max(arrived, SHORTEST_SETTLING)
         found = settling_time(float(simulator["speed"]), full)
     except (KeyError, ValueError):
-        return SHORTEST_SETTLING
+        return None
     return found if isfinite(found) else SHORTEST_SETTLING
 
 

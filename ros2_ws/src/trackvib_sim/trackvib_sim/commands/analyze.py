@@ -1,5 +1,6 @@
 """`trackvib analyze`: bags are read and measured one after the other; tables on the screen, files in one new folder."""
 
+from contextlib import contextmanager
 from datetime import datetime
 from math import isnan
 from os.path import realpath
@@ -40,8 +41,8 @@ def run_analyze(bags, settle, interval, speed_band, out, time, unit, sources):
         analyses, report_data_list = [], []
         with progress_on(console) as progress:
             for bag in bags:
-                how = settle, interval, speed_band, time, unit, sources
-                recording, analysis, report_data = measure(bag, progress, *how)
+                recording = read(bag, progress, time, unit, sources)
+                analysis, report_data = measure(recording, bag, progress, settle, interval, speed_band)
                 analyses.append(analysis)
                 report_data_list.append(report_data)
                 del recording  # and with it large temporary files, before the next one makes its own
@@ -58,19 +59,24 @@ def run_analyze(bags, settle, interval, speed_band, out, time, unit, sources):
     console.print(f"written to {folder}: {', '.join(sorted(each.name for each in folder.iterdir()))}", soft_wrap=True)
 
 
-def measure(bag, progress, settle, interval, speed_band, time, unit, sources):
-    """Return the recording in a bag on one time base, its `Analysis` and its `ReportData`.
-
-    Raises
-    ------
-    BagError, CommandError
-        It cannot be read or measured.
-    """
+def read(bag, progress, time, unit, sources):
+    """Return the recording in a bag on one time base; raises `BagError`, or `CommandError` if that cannot be."""
     recording = read_recording(bag, _reporter(progress, f"reading {bag}"), time, sources)
-    try:
-        recording = on_one_time_base(in_vehicle_axes(in_unit(recording, unit), sources))
+    with _named(bag):
+        return on_one_time_base(in_vehicle_axes(in_unit(recording, unit), sources))
+
+
+def measure(recording, bag, progress, settle, interval, speed_band):
+    """Return `Analysis` and `ReportData` of a recording; raises `CommandError` if it cannot be measured."""
+    with _named(bag):
         analysis = analyse(recording, settle, _reporter(progress, f"measuring {bag}"), interval, speed_band)
-        return recording, analysis, build_report_data(recording, analysis)
+        return analysis, build_report_data(recording, analysis)
+
+
+@contextmanager
+def _named(bag):
+    try:
+        yield
     except ValueError as error:
         raise CommandError(f"bag {bag!r}: {error}") from None
 

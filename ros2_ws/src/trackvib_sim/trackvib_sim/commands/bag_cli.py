@@ -7,9 +7,10 @@ import click
 
 from .endings import INTERRUPTED, fail, say
 from .option_types import largest_chunk_option
+from .verbs import Verbs
 
 
-@click.group()
+@click.group(cls=Verbs)
 def bag():
     """Inspect recorded bags, and repair those that were cut short."""
 

@@ -5,13 +5,14 @@ from pathlib import Path
 
 from ..analysis.bag_tables import write_tables
 from ..analysis.comparison.compare import compare
+from ..analysis.comparison.settlings import settlings
 from ..analysis.comparison.tables import write_comparison
 from ..analysis.report.page import write_report
 from ..analysis.report.ratio_section import ratio_section, ratio_table
 from ..bags.reading import HEADER_TIME
 from ..bags.sources import Sources
 from ..console import Terminal
-from .analyze import measure, new_table, progress_on, require_different
+from .analyze import measure, new_table, progress_on, read, require_different
 from .result_folder import CommandError, all_or_nothing
 
 
@@ -29,21 +30,26 @@ def run_compare(measured, simulated, align, speed_band, interval, settle, out, t
     with all_or_nothing(folder) as folder:
         require_different([measured, simulated])
         with progress_on(console) as progress:
-            parts = settle, interval, speed_band
+            recordings = (
+                read(measured, progress, time, unit, sources),
+                read(simulated, progress, HEADER_TIME, "m/s2", Sources()),
+            )
+            settling = settlings(recordings, settle)
             found = [
-                measure(measured, progress, *parts, time, unit, sources),
-                measure(simulated, progress, *parts, HEADER_TIME, "m/s2", Sources()),
+                measure(recording, bag, progress, seconds, interval, speed_band)
+                for recording, bag, (seconds, _) in zip(recordings, (measured, simulated), settling, strict=True)
             ]
-            recordings, analyses, report_data_list = zip(*found, strict=True)
+            analyses, report_data_list = zip(*found, strict=True)
             try:
-                comparison = compare(recordings, analyses, align, interval, speed_band, settle)
+                comparison = compare(recordings, analyses, align, interval, speed_band)
             except ValueError as error:
                 raise CommandError(f"{measured!r} and {simulated!r} cannot be compared: {error}") from None
         write_tables(analyses, folder)
         write_comparison(comparison, folder)
         write_report(list(report_data_list), folder / "report.html", [ratio_section(comparison)])
-    for word, analysis in zip(("measured", "simulated"), analyses, strict=True):
-        console.print(f"{word}: {analysis.bag}: {analysis.measured:g} s count", soft_wrap=True)
+    for word, analysis, (seconds, why) in zip(("measured", "simulated"), analyses, settling, strict=True):
+        counts = f"{analysis.measured:g} s count, after {seconds:g} s of settling ({why})"
+        console.print(f"{word}: {analysis.bag}: {counts}", soft_wrap=True)
         for note in analysis.notes:
             console.print(f"  {note}", soft_wrap=True)
     for note in comparison.notes:

@@ -4,7 +4,7 @@ import click
 
 from ..analysis.settling import SHORTEST_SETTLING
 from .endings import fail
-from .option_types import FiniteRange, largest_chunk_option
+from .option_types import FiniteRange, Known, largest_chunk_option
 from .part_options import interval_option, speed_band_option
 from .sensor_options import sensor_options
 
@@ -18,7 +18,7 @@ _ALIGNMENTS = ("auto", "speed", "distance", "none")
 @click.argument("simulated", type=click.Path())
 @click.option(
     "--align",
-    type=click.Choice(_ALIGNMENTS),
+    type=Known(_ALIGNMENTS),
     default="auto",
     show_default=True,
     help="Compare what was driven at the same speed, or at the same distance along the way; auto: by speed where "
@@ -31,7 +31,9 @@ _ALIGNMENTS = ("auto", "speed", "distance", "none")
     type=FiniteRange(SHORTEST_SETTLING, 1e6),
     default=None,
     metavar="S",
-    help="Time from the start of each recording that does not count, in s.",
+    help=f"Time from the start of both recordings that does not count, in s, {SHORTEST_SETTLING:g} or more.  [default: "
+    f"until the recorded run has settled, by its parameters; a recording without them as long as the other one; "
+    f"{SHORTEST_SETTLING:g} if neither has them]",
 )
 @click.option(
     "--out",

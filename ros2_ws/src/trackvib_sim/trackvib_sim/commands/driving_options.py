@@ -20,7 +20,7 @@ _SETTINGS = {
 def loop_option(name, option=click.option, **settings):
     """Return the option of an argument of the loop; None where it is not given."""
     argument = ARGUMENTS[name]
-    default = {"show_default": argument.default} if argument.default else {}
+    default = {} if settings.get("is_flag") else {"show_default": argument.default or "none"}
     return option(f"--{name.replace('_', '-')}", default=None, help=argument.description, **default, **settings)
 
 

@@ -4,9 +4,15 @@ import io
 import sys
 from contextlib import contextmanager
 
+import click
+
 
 class OutputLost(OSError):
     """What was printed did not all arrive; the message says why."""
+
+
+class OutputUnread(OSError):
+    """Whoever read what was printed has gone, as `| head` does; there is nobody to tell it to."""
 
 
 class _Output(io.RawIOBase):
@@ -36,7 +42,9 @@ class _Output(io.RawIOBase):
 
 @contextmanager
 def lasting_output():
-    """Let `sys.stdout` take everything during the block; raise `OutputLost` after it if that did not all arrive.
+    """Let `sys.stdout` take everything during the block; raise an error after it if that did not all arrive.
+
+    It is `OutputUnread` where the reader has gone, else `OutputLost`.
 
     A terminal without the signs for square and box still gets the numbers.
     """
@@ -46,10 +54,17 @@ def lasting_output():
     sys.stdout = io.TextIOWrapper(
         io.BufferedWriter(output), encoding=before.encoding, errors="replace", line_buffering=True
     )
+    ended = None
     try:
         yield
+    except (SystemExit, click.exceptions.Exit) as end:  # --help, for one, ends like this
+        ended = end
     finally:
         sys.stdout.flush()
         sys.stdout = before
+    if ended is not None and (getattr(ended, "code", 0) or getattr(ended, "exit_code", 0) or output.failure is None):
+        raise ended
+    if isinstance(output.failure, BrokenPipeError):
+        raise OutputUnread
     if output.failure is not None:
         raise OutputLost(f"standard output cannot be written: {output.failure.strerror}; all files are written")

@@ -4,6 +4,7 @@ from itertools import product
 
 import numpy as np
 from mr_mount_controller.node_base.plain_text import plain_line
+from mr_mount_controller.node_base.suggestion import suggestion
 from rich.table import Table
 
 from ..console import Terminal
@@ -41,7 +42,7 @@ def run_bench(name_or_file, mount, amplitudes, frequencies, currents, out):
         raise ValueError(f"vehicle {vehicle.name} has no mounts")
     mount = names[0] if mount is None else mount
     if mount not in names:
-        raise ValueError(f"--mount {plain_line(mount)!r} is not one of {', '.join(names)}")
+        raise ValueError(f"--mount {plain_line(mount)!r} is not one of {', '.join(names)}{suggestion(mount, names)}")
     mounts, index = build_system(vehicle, Operation(0.0, 0.0, False), 1e-4).mounts, names.index(mount)
     if index < mounts.coils:
         low, high = usable_current(vehicle)

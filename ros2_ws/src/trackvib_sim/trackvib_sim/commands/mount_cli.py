@@ -5,7 +5,8 @@ from click.core import ParameterSource
 
 from ..mount_bench import LAWS
 from .endings import fail
-from .option_types import FiniteRange, Several, vehicle_option
+from .option_types import FiniteRange, Known, Several, vehicle_option
+from .verbs import Verbs
 
 
 def _numbers(name, default, low, high, words):
@@ -23,7 +24,7 @@ _OUT = click.option(
 )
 
 
-@click.group(invoke_without_command=True)
+@click.group(cls=Verbs, invoke_without_command=True)
 @vehicle_option
 @click.option("--mount", default=None, help="Name of the mount.  [default: the vehicle's first]")
 @_numbers("--amplitudes", "0.2,1,3", 1e-3, 50.0, "Amplitudes in mm.")
@@ -51,7 +52,7 @@ def mount(context, **choices):
 @click.argument("file", type=click.Path(exists=True, dir_okay=False))
 @click.option(
     "--law",
-    type=click.Choice(LAWS),
+    type=Known(LAWS),
     default="yielding",
     show_default=True,
     help="Law to fit: without or with a yield force.",

@@ -3,6 +3,7 @@
 from math import isfinite
 
 import click
+from mr_mount_controller.node_base.suggestion import suggestion
 
 from ..bags.limits import LARGEST_CHUNKS, largest_chunk
 from ..data import DEFAULT_VEHICLE
@@ -16,6 +17,13 @@ class FiniteRange(click.FloatRange):
         if not isfinite(number):
             self.fail(f"{value} is not in the range {self._describe_range()}.", param, ctx)
         return number
+
+
+class Known(click.Choice):
+    """Names that are known; an error says which one may have been meant."""
+
+    def get_invalid_choice_message(self, value, ctx):
+        return super().get_invalid_choice_message(value, ctx).rstrip(".") + suggestion(str(value), self.choices)
 
 
 class Several(click.ParamType):

@@ -90,7 +90,7 @@ def _replay(recording, stock, law, writer, replayed, folder, console):
         )
         _tell_pairing(samples, len(recording.chassis.stamp), topics, console)
         values, changes = recorded_law(recording, law, find_law(law)) if law else ({}, ())
-        check, last_words = stack.enter_context(_controller(stock, law, values, _rate(samples.stamp), folder))
+        check, why = stack.enter_context(_controller(stock, law, values, _rate(samples.stamp), folder))
         trial = stack.enter_context(ControllerTrial(recording.mounting))
         if law is None:
             console.print(f"waiting for a controller that subscribes to {CHASSIS_IMU} or {POWERTRAIN_IMU} and "
@@ -112,7 +112,7 @@ def _replay(recording, stock, law, writer, replayed, folder, console):
             counted = ", ".join(f"{count} {name}" for name, count in trial.counts.items() if count)
             raise CommandError(
                 f"the controller answered none of {len(samples.stamp)} samples; answers: {counted or 'none at all'}. "
-                f"sample_stamp of an answer must be the stamp of its Imu message{last_words()}"
+                f"sample_stamp of an answer must be the stamp of its Imu message{why()}"
             )
 
 
@@ -150,7 +150,7 @@ def _answers(recording):
 
 @contextmanager
 def _controller(stock, law, values, rate, folder):
-    """Run the stock controller unless the user runs one; gives a check, which raises if it has ended, and its words."""
+    """Run the stock controller unless the user runs one; gives a check, which raises if it has ended, and why."""
     if law is None:
         yield lambda: None, lambda: ""
         return
@@ -162,10 +162,10 @@ def _controller(stock, law, values, rate, folder):
 
     def check():
         if stock.ended():
-            raise CommandError(f"'controller' ended; its last output:\n{stock.last_words('controller')}")
+            raise CommandError(f"'controller' ended{stock.why('controller')}")
 
     try:
-        yield check, lambda: f"; its last output:\n{stock.last_words('controller')}"
+        yield check, lambda: stock.why("controller")
     finally:
         stock.stop()
 

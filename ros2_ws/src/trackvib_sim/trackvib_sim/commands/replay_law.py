@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 from mr_mount_controller.laws import find_law
+from mr_mount_controller.laws.running import make_law
 from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.plain_text import readable, shortened
 from rich.table import Table
@@ -44,7 +45,7 @@ def run_replay_law(bag, law, out, console):
     simulation, _ = prepare_again(recording)
     kind = find_law(law)
     values, changes = recorded_law(recording, law, kind)
-    chosen = kind(1.0 / simulation.settings.rates.control, **values)
+    chosen = make_law(kind, 1.0 / simulation.settings.rates.control, values)
     with all_or_nothing(out) as folder:
         ended = _drive(recording, simulation, (chosen, changes), law, folder / "bag", console)
         labels, summary = _compare(recording, read_recording(folder / "bag"), law, ended, folder)

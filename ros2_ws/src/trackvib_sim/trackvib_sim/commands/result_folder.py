@@ -11,13 +11,18 @@ class CommandError(RuntimeError):
     """What a command cannot do; the message says why, in one line or with a node's last words."""
 
 
-def make_folder(path):
-    """Make a new folder; raise `CommandError` if there is one or it cannot be made."""
+class Refused(CommandError):
+    """What a command cannot begin with the values that it was given."""
+
+
+def _make_folder(path):
     folder = Path(path)
     try:
         folder.mkdir(parents=True)
     except FileExistsError:
-        raise CommandError(f"{str(folder)!r} already exists; nothing is overwritten, choose another --out") from None
+        raise CommandError(
+            f"{str(folder)!r} already exists; nothing is overwritten, choose another --out or remove it"
+        ) from None
     except OSError as error:
         raise CommandError(f"{str(folder)!r} cannot be created: {error.strerror}") from None
     return folder
@@ -53,8 +58,10 @@ def whole_or_none(*files):
 
 
 @contextmanager
-def all_or_nothing(path):
+def all_or_nothing(path, kept=lambda _folder, _error: False):
     """Make a new folder, which is taken away again, with the parents made for it, if the block ends in an exception.
+
+    `kept(folder, error)` may decide that what there is by then is worth keeping.
 
     Raises
     ------
@@ -62,13 +69,27 @@ def all_or_nothing(path):
         There is one, it cannot be made, or it cannot be written to.
     """
     new = [folder for folder in (Path(path), *Path(path).parents) if not os.path.exists(folder)]
-    folder = make_folder(path)
+    folder = _make_folder(path)
     try:
         with writing_to(folder):
             yield folder
-    except BaseException:
+    except BaseException as error:
+        if kept(folder, error):
+            raise
+        if isinstance(error, KeyboardInterrupt):
+            error.args = (f"nothing is kept in {folder}",)
         shutil.rmtree(folder, ignore_errors=True)
         for parent in new[1:]:
             with suppress(OSError):  # something else lies there by now
                 parent.rmdir()
         raise
+
+
+def remove_if_empty(path):
+    """Remove a folder, with those in it, if there is no file; returns whether it is gone."""
+    with suppress(OSError):
+        for folder, _, files in os.walk(path, topdown=False):
+            if files:
+                return False
+            os.rmdir(folder)
+    return not os.path.exists(path)

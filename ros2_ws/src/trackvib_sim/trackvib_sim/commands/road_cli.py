@@ -22,13 +22,16 @@ from .option_types import FiniteRange
     "--tread", type=FiniteRange(0.1, 10.0), default=2.8, show_default=True, help="Distance between the tracks in m."
 )
 @click.option(
-    "--csv", type=click.Path(dir_okay=False), default=None, help="Write the evaluated heights to this CSV file."
+    "--csv",
+    type=click.Path(dir_okay=False),
+    default=None,
+    help="Write the evaluated heights to this CSV file.  [default: none]",
 )
 @click.option(
     "--crg",
     type=click.Path(dir_okay=False),
     default=None,
-    help="Write the evaluated heights to this OpenCRG file with two long sections.",
+    help="Write the evaluated heights to this OpenCRG file with two long sections.  [default: none]",
 )
 @click.option(
     "--out",

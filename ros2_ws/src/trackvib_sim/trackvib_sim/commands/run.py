@@ -6,15 +6,18 @@ from contextlib import nullcontext
 from datetime import datetime
 from pathlib import Path
 
+from mr_mount_controller.node_base.endings import REFUSED
+from mr_mount_controller.node_base.topics import CHASSIS_IMU
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
+from ..bags.contents import contents
 from ..bags.errors import BagError
 from ..console import Description, Terminal
 from ..nodes.loop_arguments import RECORDER, SIMULATOR
 from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses
 from ..vehicle.step_size import recommended_rate
 from .own_domain import own_domain
-from .result_folder import CommandError, make_folder, writing_to
+from .result_folder import CommandError, Refused, all_or_nothing
 from .run_choices import choose
 
 _LOOK = 0.2  # s between looks at processes and progress
@@ -32,17 +35,17 @@ def run_loop(choosing, out, viewing=lambda _choices, _vehicle: nullcontext()):
         The duration is too short, the vehicle cannot be used, the folder exists, a node ended on its own, or the bag
         cannot be read or lacks something that the simulator counted.
     KeyboardInterrupt
-        After the nodes have ended in order and what there is has been summarised.
+        After the nodes have ended in order and what there is has been summarised; its words say what is kept.
+
+    A run that is refused or has no sample leaves no folder.
     """
     console = Terminal()
     choices, parameters, vehicle, settling = choose(**choosing)
     executables = ONE_PROCESS if choices.one_process else FOUR_PROCESSES
-    with LoopProcesses(executables) as processes, viewing(choices, vehicle):
-        with own_domain(choices.namespace):
-            name = f"{datetime.now():%Y%m%dT%H%M%S}_{_short(choices.road)}_{_pace(choices)}"
-            folder = make_folder(out or Path("runs") / name)
-            with writing_to(folder):
-                (folder / "log").mkdir()
+    with LoopProcesses(executables) as processes, viewing(choices, vehicle), own_domain(choices.namespace):
+        name = f"{datetime.now():%Y%m%dT%H%M%S}_{_short(choices.road)}_{_pace(choices)}"
+        with all_or_nothing(out or Path("runs") / name, _worth_keeping) as folder:
+            (folder / "log").mkdir()
             parameters.give(RECORDER, bag=str(folder / "bag"))
             parameters.give(SIMULATOR, wait_for_view=choices.view)
             console.print(f"closed loop: {choices.title}")
@@ -51,7 +54,25 @@ def run_loop(choosing, out, viewing=lambda _choices, _vehicle: nullcontext()):
             if choices.physics_rate < (least := recommended_rate(vehicle)):
                 console.print(f"warning: --physics-rate {choices.physics_rate} is below the recommended {least} Hz")
             interrupt = _run_nodes(processes, choices, parameters, folder, console)
-        _measure(choices, settling, folder, console, interrupt)
+            _measure(choices, settling, folder, console, interrupt)
+
+
+def _worth_keeping(folder, error):
+    """Whether a run that ended in an error leaves its folder: it was not refused, and an interrupted one has samples.
+
+    The words of an interrupt then say what is kept.
+    """
+    if not isinstance(error, KeyboardInterrupt):
+        return not isinstance(error, Refused)
+    try:
+        bags = [contents(bag) for bag in folder.glob("bag*")]
+        if not any(count for bag in bags for topic, count in bag.counts.items() if topic.endswith(CHASSIS_IMU)):
+            return False
+        what = "bags are complete up to here"
+    except BagError as damage:  # the recorder was not waited for
+        what = str(damage)
+    error.args = (f"kept in {folder}: {', '.join(sorted(path.name for path in folder.iterdir()))}; {what}",)
+    return True
 
 
 def _measure(choices, settling, folder, console, interrupt):
@@ -80,8 +101,9 @@ def _run_nodes(processes, choices, parameters, folder, console):
     codes = processes.stop()
     if interrupted is None and any(codes.values()):
         name = next(name for name in (*first, *codes) if codes[name])
-        said = processes.last_words(name)
-        raise CommandError(_ending(name, codes[name], folder) + (f"; its last output:\n{said}" if said else ""))
+        if codes[name] == REFUSED:
+            raise Refused(f"'{name}' cannot run{processes.why(name)}")
+        raise CommandError(f"{_ending(name, codes[name], folder)}{processes.why(name)}")
     return interrupted
 
 

@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
 
+from mr_mount_controller.laws import find_law
+from mr_mount_controller.laws.running import make_law
 from mr_mount_controller.node_base.parameters import ParameterError
 
 from ..analysis.segments import SHORTEST_MEASURING
@@ -79,6 +81,7 @@ def choose(given, files, namespace, one_process, view):
             physics_rate=physics_rate(vehicle, own),
             **{name: own[name] for name in ("speed", "gears", "duration", "measure_rate")},
         )
+        _make_law(choices.law, parameters)
         settling = _settling(choices, find_road(choices.road, 2.0 * vehicle.road_wheels.y).begins)
     except (ParameterError, RoadError, DriveFileError, VehicleFileError) as error:
         raise CommandError(str(error)) from None
@@ -89,6 +92,14 @@ def choose(given, files, namespace, one_process, view):
             f"{settling:.1f} s to settle and {SHORTEST_MEASURING:g} s to measure"
         )
     return choices, parameters, vehicle, settling
+
+
+def _make_law(name, parameters):
+    """Make the law of a run once, so that one that cannot be is refused here; raises `ParameterError`."""
+    kind = find_law(name)
+    given = {each.name: parameters.get(CONTROLLER, each.name, each.default) for each in kind.parameters}
+    values = {each.name: each.check(given[each.name]) for each in kind.parameters}
+    make_law(kind, 1.0 / parameters.get(CONTROLLER, "sample_rate", 1000.0), values)
 
 
 def _settling(choices, begins):

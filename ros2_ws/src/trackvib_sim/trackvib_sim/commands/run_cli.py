@@ -23,7 +23,8 @@ from .option_types import FiniteRange, law_option
     "files",
     type=click.Path(exists=True, dir_okay=False),
     multiple=True,
-    help="ROS 2 parameter file for any of the nodes; may be repeated, the last one wins. Options take precedence.",
+    help="ROS 2 parameter file for any of the nodes; may be repeated, the last one wins. Options take precedence.  "
+    "[default: none]",
 )
 @click.option(
     "--namespace", default="/", show_default=True, help="Namespace of the whole vehicle, including its clock."

@@ -9,6 +9,7 @@ from math import isfinite
 import click
 
 from ..bags.sources import BY_MEAN, GRAVITIES, SourceError, Sources
+from .option_types import Known
 
 _OPTIONS = (
     click.option("--chassis", metavar="TOPIC", help="Topic or CSV file of the chassis sensor.  [default: chassis/imu]"),
@@ -20,7 +21,8 @@ _OPTIONS = (
         "further",
         metavar="NAME=TOPIC",
         multiple=True,
-        help="Another sensor; may be repeated. Topics are of type Imu, AccelStamped or Vector3Stamped.",
+        help="Another sensor; may be repeated. Topics are of type Imu, AccelStamped or Vector3Stamped.  "
+        "[default: none]",
     ),
     click.option(
         "--rotate",
@@ -31,7 +33,7 @@ _OPTIONS = (
     ),
     click.option(
         "--gravity",
-        type=click.Choice(GRAVITIES),
+        type=Known(GRAVITIES),
         default=BY_MEAN,
         show_default=True,
         help="Remove gravity as the mean, or by the orientation in the Imu messages.",
@@ -46,14 +48,14 @@ _OPTIONS = (
     ),
     click.option(
         "--time",
-        type=click.Choice(("header", "log")),
+        type=Known(("header", "log")),
         default="header",
         show_default=True,
         help="Time base: the stamps in the message headers, or the times at which the messages were recorded.",
     ),
     click.option(
         "--unit",
-        type=click.Choice(("m/s2", "g")),
+        type=Known(("m/s2", "g")),
         default="m/s2",
         show_default=True,
         help="Unit of the recorded accelerations.",

@@ -1,5 +1,6 @@
 """The command line's studies: `trackvib study NAME`."""
 
+import os
 import sys
 from contextlib import contextmanager
 
@@ -8,12 +9,15 @@ import click
 from ..road.classes import CLASSES
 from ..vehicle.drive.limits import FASTEST
 from .endings import INTERRUPTED, fail, say
-from .option_types import FiniteRange, Several, vehicle_option
+from .option_types import FiniteRange, Known, Several, vehicle_option
+from .result_folder import remove_if_empty
+from .verbs import Verbs
 
+_PERIOD = 1e-3  # s, of the control loop
 SCENARIOS = ("e10", "c20", "run_up", "bump")  # those of studies.controllers, which takes long to import
 
 
-@click.group()
+@click.group(cls=Verbs)
 def study():
     """Many runs of the whole vehicle, compared with published results or with each other."""
 
@@ -21,14 +25,20 @@ def study():
 @contextmanager
 def _ends_in_one_line(out):
     """Turn what can go wrong in a study into one line and an exit code."""
-    from ..studies.workers import WorkersError  # imported late: --help need not wait for it
+    from mr_mount_controller.laws import LawError  # imported late: --help need not wait for it
 
+    from ..studies.workers import WorkersError
+
+    new = not os.path.lexists(out)
     try:
         yield
-    except (WorkersError, ValueError, OSError) as error:
+    except (WorkersError, LawError, ValueError, OSError) as error:
+        if new:
+            remove_if_empty(out)
         fail(error)
     except KeyboardInterrupt:
-        say(f"interrupted; finished runs are kept in {out}, the same command continues from there")
+        kept = f"finished runs are kept in {out}, the same command continues from there"
+        say(f"interrupted; {'no run was finished' if new and remove_if_empty(out) else kept}")
         sys.exit(INTERRUPTED)
 
 
@@ -55,7 +65,7 @@ def _speeds(default):
 @study.command()
 @click.option(
     "--classes",
-    type=Several(click.Choice(list(CLASSES))),
+    type=Several(Known(list(CLASSES))),
     default=",".join(CLASSES),
     show_default=True,
     metavar="A,B,...",
@@ -102,7 +112,7 @@ def figures(vehicle, scheduler, out):
 )
 @click.option(
     "--scenarios",
-    type=Several(click.Choice(list(SCENARIOS))),
+    type=Several(Known(list(SCENARIOS))),
     default=",".join(SCENARIOS),
     show_default=True,
     metavar="NAME,NAME,...",
@@ -121,7 +131,12 @@ def figures(vehicle, scheduler, out):
 def controllers(laws, scenarios, seeds, vehicle, scheduler, out):
     """Compare every control law with constant currents: on roads, in an engine run-up and over a bump."""
     with _ends_in_one_line(out):
-        from ..studies.controllers.study import run_controllers  # imported late, as above
+        from mr_mount_controller.laws import find_law  # imported late, as above
+        from mr_mount_controller.laws.running import make_law
+
+        for law in laws or ():
+            make_law(find_law(law), _PERIOD, {})  # one that cannot be is refused before there is a folder
+        from ..studies.controllers.study import run_controllers
 
         run_controllers(laws, scenarios, seeds, vehicle, scheduler, out)
 
@@ -141,10 +156,10 @@ def controllers(laws, scenarios, seeds, vehicle, scheduler, out):
 )
 @click.option(
     "--without",
-    type=Several(click.Choice(list(CLASSES))),
+    type=Several(Known(list(CLASSES))),
     default=(),
     metavar="A,B,...",
-    help="Road classes whose rows are left out, so that `study table1` can predict them.",
+    help="Road classes whose rows are left out, so that `study table1` can predict them.  [default: none]",
 )
 @vehicle_option
 @_SCHEDULER

@@ -9,8 +9,18 @@ from .option_types import FiniteRange, largest_chunk_option
 @click.command()
 @largest_chunk_option
 @click.argument("bag", type=click.Path())
-@click.option("--save", type=click.Path(dir_okay=False), default=None, help="Only write a Rerun recording (.rrd).")
-@click.option("--gif", type=click.Path(dir_okay=False), default=None, help="Only write an animated picture (.gif).")
+@click.option(
+    "--save",
+    type=click.Path(dir_okay=False),
+    default=None,
+    help="Only write a Rerun recording (.rrd).  [default: none]",
+)
+@click.option(
+    "--gif",
+    type=click.Path(dir_okay=False),
+    default=None,
+    help="Only write an animated picture (.gif).  [default: none]",
+)
 @click.option(
     "--rate",
     type=FiniteRange(1.0, 1000.0),

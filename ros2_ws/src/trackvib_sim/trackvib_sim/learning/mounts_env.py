@@ -8,6 +8,7 @@ import numpy as np
 from gymnasium.error import ResetNeeded
 from mr_mount_controller.laws.base import Sample
 from mr_mount_controller.laws.estimator import LARGEST_FORCE, LARGEST_RATE, MotionEstimator
+from mr_mount_controller.node_base.suggestion import suggestion
 
 from ..data import find_vehicle
 from ..nodes.simulator_parameters import PARAMETERS, prepare
@@ -68,7 +69,9 @@ class MountsEnv(gymnasium.Env):
         if render_mode is not None:
             raise ValueError(f"render_mode is {render_mode!r}, accepted is None; `trackvib view` shows bags of runs")
         if unknown := parameters.keys() - set(OF_THE_DRIVE):
-            raise ValueError(f"there is no parameter {', '.join(sorted(unknown))}; known are {', '.join(OF_THE_DRIVE)}")
+            meant = suggestion(min(unknown), OF_THE_DRIVE)
+            known = f"known are {', '.join(OF_THE_DRIVE)}{meant}"
+            raise ValueError(f"there is no parameter {', '.join(sorted(unknown))}; {known}")
         values = {each.name: each.check(parameters.get(each.name, each.default)) for each in PARAMETERS}
         path = find_vehicle(vehicle)
         # nobody asks for odometry, so its rate shall clash with no other

@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+from mr_mount_controller.node_base.endings import ERROR, TRACEBACK
+
 from ..simulation import closed_loop  # noqa: F401  the nodes have it from here
 from .forked_node import ForkedNode
 
@@ -42,6 +44,7 @@ class LoopProcesses:
         file = (self._log_folder / PARAMETERS).absolute()
         parameters.write(file)
         words = ["--ros-args", "--params-file", str(file), "-r", f"__ns:={parameters.namespace}"]
+        words += ["--log-level", f"{TRACEBACK}:=debug"]  # goes to the log, while `why` tells the error alone
         for name, node in self._nodes.items():
             node.begin(words, self._log(name))
 
@@ -64,6 +67,14 @@ class LoopProcesses:
         log = self._log(name)
         text = log.read_text(errors="replace") if log.exists() else ""
         return "\n".join(text.strip().splitlines()[-lines:])
+
+    def why(self, name):
+        """Return what a process said at last, as the rest of a sentence: the error that ended it, or its last lines."""
+        words = self.last_words(name)
+        last = words.rpartition("\n")[2]
+        if last.startswith(ERROR):
+            return f": {last.removeprefix(ERROR)}"
+        return f"; its last output:\n{words}" if words else ""
 
     def _log(self, name):
         return (self._log_folder / f"{name}.log").absolute()

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 from mr_mount_controller.node_base.plain_text import readable, shortened
+from mr_mount_controller.node_base.suggestion import suggestion
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, model_validator
 
 from ..road.classes import CLASSES
@@ -189,7 +190,8 @@ def road_from_file(path, tread, start=None, reverse=False, repeat=False):
             profile = recorded.profile
         else:
             accepted = f"a class ({', '.join(CLASSES)}), .csv, .crg, .yaml or a bag"
-            raise RoadError(f"road {shortened(str(path))!r} does not exist; accepted are {accepted}")
+            meant = suggestion(path.name, CLASSES)
+            raise RoadError(f"road {shortened(str(path))!r} does not exist; accepted are {accepted}{meant}")
     except ProfileError as error:
         raise RoadError(str(error)) from None
     except OSError as error:

@@ -4,7 +4,8 @@ from collections import deque
 from typing import NamedTuple
 
 import numpy as np
-from mr_mount_controller.laws.base import ControlLaw, Sample, answer, changed_law
+from mr_mount_controller.laws.base import ControlLaw, Sample
+from mr_mount_controller.laws.running import answer, changed_law, run_law_on
 
 from ..numerics.units import NANO
 from ..road.feeder import HasHeights, RoadFeeder
@@ -93,7 +94,7 @@ def periods_under_law(simulation, law, feed=lambda: None, changes=()):
     lockstep = Lockstep(simulation.mounting.coils, simulation.settings.passive_current, (-np.inf, np.inf))
     readings = Readings(simulation)
     names = [sensor.name for sensor in simulation.sensors[: POWERTRAIN + 1]]
-    law.run_on(simulation.mounting)
+    run_law_on(law, simulation.mounting)
     while True:
         feed()
         simulation.advance(lockstep.currents)

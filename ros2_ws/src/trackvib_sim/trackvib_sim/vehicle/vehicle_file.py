@@ -3,6 +3,8 @@
 from os.path import exists
 from pathlib import Path
 
+from mr_mount_controller.node_base.suggestion import suggestion
+
 from ..data import vehicle_names
 from ..yaml_text import YamlTextError, read_text, validated
 from .parameters import Vehicle
@@ -55,6 +57,8 @@ def read_vehicle(path: str | Path) -> tuple[Vehicle, str]:
     try:
         text = read_text(path, "vehicle file")
     except YamlTextError as error:
-        by_name = "" if exists(path) else f"; vehicles known by name are {', '.join(vehicle_names())}"
+        names = vehicle_names()
+        known = f"; vehicles known by name are {', '.join(names)}{suggestion(Path(path).name, names)}"
+        by_name = "" if exists(path) else known
         raise VehicleFileError(f"{error}{by_name}") from None
     return parse_vehicle(text, str(path)), text

@@ -45,14 +45,17 @@ class Comparison:
     simulated: str
     aligned_by: str  # "speed", "distance", or "none": statistics of all time that counts
     confidence: float
+    settle: tuple  # of each drive, time from the start that does not count, s
     windows: tuple  # how many of each drive are compared
     band: tuple  # Hz
     ratios: tuple  # of `Ratio`s
     notes: tuple  # sentences
 
 
-def compare(recordings, analyses, align=AUTO, interval=50.0, speed_band=SPEED_BAND, settle=None):
+def compare(recordings, analyses, align=AUTO, interval=50.0, speed_band=SPEED_BAND):
     """Return the `Comparison` of two recordings on one time base, measured and simulated, with their `Analysis`es.
+
+    What does not count of each is as in its analysis.
 
     Raises
     ------
@@ -70,8 +73,8 @@ def compare(recordings, analyses, align=AUTO, interval=50.0, speed_band=SPEED_BA
     names = [name for name in bands[0][1] if name in bands[1][1]]
     bands = [[*common, *(found[name] for name in names)] for common, found in bands]
     windows = [
-        windows_of(recording, find_segments(recording, settle), of_drive)
-        for recording, of_drive in zip(recordings, bands, strict=True)
+        windows_of(recording, find_segments(recording, analysis.settle), of_drive)
+        for recording, analysis, of_drive in zip(recordings, analyses, bands, strict=True)
     ]
     aligned_by, strata, weights = _strata(windows, align, interval, speed_band)
     if aligned_by == NOT and align == AUTO:
@@ -88,7 +91,8 @@ def compare(recordings, analyses, align=AUTO, interval=50.0, speed_band=SPEED_BA
     ratios = tuple(_records(bands[0], results))
     counts = tuple(int((stratum >= 0).sum()) for stratum in strata)
     paths = (str(recording.path) for recording in recordings)
-    return Comparison(*paths, aligned_by, CONFIDENCE, counts, (LOWEST, highest), ratios, tuple(notes))
+    settle = tuple(analysis.settle for analysis in analyses)
+    return Comparison(*paths, aligned_by, CONFIDENCE, settle, counts, (LOWEST, highest), ratios, tuple(notes))
 
 
 def _lines(recordings, analyses):

@@ -14,7 +14,8 @@ _COLOURS = {**SENSOR_COLOURS, THROUGH: "#b0508f"}
 _METHOD = (
     "Ratios are simulated over measured, with {confidence:.0%} confidence intervals. These come from the jackknife "
     "over groups of windows (2 s, Hann, 50 % overlap; {windows[0]} measured, {windows[1]} simulated) and Student's t "
-    "on logarithms, with degrees of freedom by Welch and Satterthwaite. {aligned}"
+    "on logarithms, with degrees of freedom by Welch and Satterthwaite. {aligned} The first {settle[0]:.4g} s of the "
+    "measured drive and the first {settle[1]:.4g} s of the simulated one do not count."
 )
 _ALIGNED = {
     "speed": "Windows are compared in the speed bands that both drives contain, weighted as in the measured drive.",
@@ -26,7 +27,10 @@ _ALIGNED = {
 def ratio_section(comparison):
     """Return the `sections.Section` about a `Comparison`."""
     words = _METHOD.format(
-        confidence=comparison.confidence, windows=comparison.windows, aligned=_ALIGNED[comparison.aligned_by]
+        confidence=comparison.confidence,
+        windows=comparison.windows,
+        aligned=_ALIGNED[comparison.aligned_by],
+        settle=comparison.settle,
     )
     figures = [_thirds(comparison, axis) for axis in AXES]
     return Section("Simulated over measured", words, figures, [ratio_table(comparison)], 3)
