@@ -2,7 +2,9 @@
 
 import os
 import signal
+import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import click
@@ -18,17 +20,32 @@ def main(folder, port):
 
     A broken link is an error.
     """
-    command = [sys.executable, "-m", "mkdocs"]
-    if folder is None:
-        command += ["serve", "--dev-addr", f"127.0.0.1:{port}"]
-    else:
-        place = Path(folder).absolute()
-        if place.exists():  # MkDocs would empty it
-            raise click.ClickException(f"{folder!r} already exists; nothing is overwritten, choose another --build")
-        command += ["build", "--site-dir", str(place)]
+    settings = ["--strict", "--config-file", str(ROOT / "mkdocs.yml")]
     # the theme's authors advertise their next generator on every start
     env = dict(os.environ, NO_MKDOCS_2_WARNING="1")
-    os.execve(command[0], [*command, "--strict", "--config-file", str(ROOT / "mkdocs.yml")], env)
+    if folder is None:
+        words = [sys.executable, "-m", "mkdocs", "serve", "--dev-addr", f"127.0.0.1:{port}", *settings]
+        os.execve(words[0], words, env)
+    place = Path(folder).absolute()
+    if place.exists():
+        raise click.ClickException(f"{folder!r} already exists; nothing is overwritten, choose another --build")
+    place.parent.mkdir(parents=True, exist_ok=True)
+    sys.exit(_build(place, settings, env))
+
+
+def _build(place, settings, env):
+    """Build the site, which takes its place when it is whole; returns the exit code."""
+    with tempfile.TemporaryDirectory(prefix=".new_", dir=place.parent) as draft:
+        site = Path(draft) / place.name
+        words = [sys.executable, "-m", "mkdocs", "build", "--site-dir", str(site), *settings]
+        try:
+            code = subprocess.run(words, env=env).returncode
+        except KeyboardInterrupt:
+            print("interrupted; nothing is kept", file=sys.stderr)
+            return 128 + signal.SIGINT
+        if code == 0:
+            site.rename(place)
+    return code
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """`trackvib run` when it is cut short, and its bad input."""
 
 import os
+import re
 import signal
 
 import pytest
@@ -31,6 +32,37 @@ def test_interrupted_run_leaves_a_complete_bag(start_cli, tmp_path, number):
     assert drive.diagnostics["state"] == "stopped"
     assert len(drive.chassis.stamp) - len(drive.answers.sample_stamp) in (0, 1)
     assert not nodes_of(tmp_path / "run")
+    assert re.search(r"^interrupted; kept in .*/run: bag, log.*; bags are complete up to here$", run.output, re.M)
+    again = start_cli("run", "--out", tmp_path / "run")
+    assert again.wait() == 1 and "nothing is overwritten, choose another --out or remove it" in again.output
+
+
+HELD = """
+from pathlib import Path
+from time import sleep
+
+from mr_mount_controller.laws import ControlLaw
+
+
+class Held(ControlLaw):
+    def __init__(self, period, **values):
+        super().__init__(period, **values)
+        while Path("/proc/self/comm").read_text() == "controller\\n" and not Path("go_on").exists():
+            sleep(0.05)
+"""
+
+
+def test_a_run_interrupted_before_its_first_sample_leaves_nothing(start_cli, env, tmp_path):
+    """The simulator waits for a controller; neither the folder nor the one made for it stays."""
+    (tmp_path / "held.py").write_text(HELD)
+    env["PYTHONPATH"] = os.pathsep.join([str(tmp_path), env.get("PYTHONPATH", "")])
+    run = start_cli("run", "--law", "held:Held", "--out", tmp_path / "new" / "run")
+    wait_for_text(tmp_path / "new" / "run" / "log" / "simulator.log", "controller")
+    run.signal(signal.SIGINT)
+    (tmp_path / "go_on").touch()
+    assert run.wait() == 130, run.output
+    assert "interrupted; nothing is kept in " in run.output
+    assert not (tmp_path / "new").exists()
 
 
 def test_killed_run_leaves_no_process(start_cli, tmp_path):
@@ -84,14 +116,34 @@ def test_impossible_domain_is_refused(start_cli, env, domain):
         (["--law", "magic"], ["--law", "magic", "passive, skyhook"]),
         (["--seed", "-1"], ["--seed", "-1", "0<=x<="]),
         (["--out", "/proc/none/run"], ["/proc/none/run", "cannot be created"]),
+        (["--law-parameters", "current=9"], ["'current' is 9", "0 to 5 A"]),
+        (["--law", "skyhook", "--law-parameters", "soft_current=3.5"], ["soft_current", "firm_current"]),
         (["--sped", "3"], ["--sped"]),
     ],
 )
-def test_bad_options_are_refused(start_cli, arguments, words):
-    """The error names the option, its value and what is accepted; nothing is started."""
+def test_bad_options_are_refused(start_cli, tmp_path, arguments, words):
+    """The error names the option, its value and what is accepted; nothing is started or left."""
     run = start_cli("run", *arguments)
     assert run.wait() != 0
     output = run.output.replace("\n", " ")
     for word in words:
         assert word.lower() in output.lower(), run.output
-    assert "Traceback" not in run.output
+    assert "Traceback" not in run.output and not any(path.is_dir() for path in tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("node", "values", "words"),
+    [
+        ("road_excitation", "{fade: -1.0}", "'road_excitation' cannot run: parameter 'fade' is -1.0, accepted is"),
+        ("simulator", "{engine_speed: 3900.0}", "'simulator' cannot run: parameter 'engine_speed' is 3900.0, accepted"),
+        ("controller", "{law: magic}", "error: parameter 'law' is 'magic', must be one of"),
+    ],
+)
+def test_a_refused_run_leaves_nothing(start_cli, tmp_path, node, values, words):
+    """Values that only the nodes can judge are refused in one line as well, and the same command is not in its way."""
+    (tmp_path / "bad.yaml").write_text(f"{node}: {{ros__parameters: {values}}}\n")
+    run = start_cli("run", "--params-file", "bad.yaml", "--out", tmp_path / "new" / "run")
+    assert run.wait() == 1
+    (error,) = (line for line in run.output.splitlines() if line.startswith("error: "))
+    assert words in error and "Traceback" not in run.output
+    assert not (tmp_path / "new").exists()

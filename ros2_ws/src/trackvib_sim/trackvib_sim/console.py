@@ -16,7 +16,7 @@ from rich.table import Table
 from rich.text import Text
 
 _UNLIMITED = 100_000  # columns of what is no terminal
-_SHORTEST_FOLD = 12  # letters of a word that are kept together if there is room at all
+_SHORTEST_FOLDS = 12, 9, 6, 4  # letters of a word that are kept together, fewer where there is no room
 _NUMBER = re.compile(r"[+\-−±*]*[0-9]")  # what begins like this is a number
 
 
@@ -44,25 +44,28 @@ def _fit(table, width):
     """Set the widths of a table's columns so that it is as wide as the terminal at most, or as its numbers need."""
     columns = [[_plain(each) for each in (column.header, *column.cells)] for column in table.columns]
     widths = [max(map(_longest_line, texts)) for texts in columns]
-    least = [_least(texts, column.justify == "right") for texts, column in zip(columns, table.columns, strict=True)]
-    room = width - 3 * len(columns) - 1  # without lines and blanks between the columns
+    lines = 3 * len(columns) + 1  # what lines and blanks between the columns take
+    for shortest in _SHORTEST_FOLDS:
+        least = [_least(texts, shortest) for texts in columns]
+        _narrow(widths, least, width - lines)
+    for column, wide in zip(table.columns, widths, strict=True):
+        column.width, column.overflow = wide, "fold"
+    table.width = sum(widths) + lines
+
+
+def _narrow(widths, least, room):
+    """Take from the widest columns, none below its least width, until all fit the room or nothing is left to take."""
     while sum(widths) > room:
         spare = [(wide, k) for k, (wide, low) in enumerate(zip(widths, least, strict=True)) if wide > low]
         if not spare:
-            break
+            return
         widths[max(spare)[1]] -= 1
-    for column, wide in zip(table.columns, widths, strict=True):
-        column.width, column.overflow = wide, "fold"
-    table.width = sum(widths) + 3 * len(columns) + 1
 
 
-def _least(texts, of_numbers):
-    """The least width of a column of these texts, the heading first; a number in it may be several words."""
-    head, *cells = texts
+def _least(texts, shortest):
+    """The least width of a column of these texts: of its numbers, and of its words, of which long ones are folded."""
     words = [word for text in texts for word in text.split()]
-    whole = cells if of_numbers else words
-    numbers = (cell_len(text) for text in whole if _NUMBER.match(text))
-    return max(*numbers, *(min(cell_len(word), _SHORTEST_FOLD) for word in words), 1, 1)
+    return max([1, *(cell_len(word) if _NUMBER.match(word) else min(cell_len(word), shortest) for word in words)])
 
 
 def _longest_line(text):

@@ -10,6 +10,8 @@ from ..node_base.plain_text import plain_line, shortened
 from .base import LawError
 from .failures import FAILURES, place_of, reason_of
 
+_LONGEST = 1000  # characters of an answer that is no current
+
 
 def make_law(kind, period, values):
     """Return a law of a class for a sampling period [s], with values of its parameters by name.
@@ -97,6 +99,6 @@ def answer(law, sample):
 def _shown(result):
     """Return an answer that is no current as one line of signs."""
     try:
-        return plain_line(shortened(repr(result)))
+        return shortened(plain_line(repr(result)), _LONGEST)
     except FAILURES:
         return f"a {type(result).__name__}"

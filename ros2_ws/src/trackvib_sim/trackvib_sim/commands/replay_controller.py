@@ -56,10 +56,12 @@ def run_replay_controller(bag, law, stock, out, console):
             **_compare(_answers(recording), replayed, recording.mounting.names, folder / "currents.png", title),
         }
         (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+    left = f"{folder}: {', '.join(sorted(path.name for path in folder.iterdir()))}"
     if interrupt is not None:
+        interrupt.args = (f"kept in {left}",)
         raise interrupt
     console.print(_words(summary), soft_wrap=True)
-    console.print(f"written to {folder}: {', '.join(sorted(path.name for path in folder.iterdir()))}", soft_wrap=True)
+    console.print(f"written to {left}", soft_wrap=True)
 
 
 def _replay_into_bag(recording, stock, law, folder, console):

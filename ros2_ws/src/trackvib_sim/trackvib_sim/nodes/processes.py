@@ -73,7 +73,7 @@ class LoopProcesses:
         words = self.last_words(name)
         last = words.rpartition("\n")[2]
         if last.startswith(ERROR):
-            return f": {last.removeprefix(ERROR)}"
+            return f": {last.removeprefix(ERROR).removeprefix(f'{name}: ')}"
         return f"; its last output:\n{words}" if words else ""
 
     def _log(self, name):
