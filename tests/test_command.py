@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -147,3 +148,19 @@ def test_another_user_gets_the_compiled_kernels(run, env, of_nobody, place, job)
 def _contents(kernels):
     """What each file of compiled code under the folder holds."""
     return {str(file.relative_to(kernels)): file.read_bytes() for file in kernels.rglob("*.nbc")}
+
+
+@pytest.mark.parametrize(("verb", "meant"), [("tset", "test"), ("dosc", "docs"), ("sehll", "shell"), ("vew", "view")])
+def test_a_verb_that_is_nearly_right(run, verb, meant):
+    """The error suggests what may have been meant, of the environment's verbs and of the laboratory's."""
+    code, output = run(TRACKVIB, verb)
+    assert code in (1, 2) and f"Did you mean '{meant}'?" in output
+
+
+def test_nobody_reads_the_help(tmp_path):
+    """Without a word, and with the exit code of SIGPIPE."""
+    reader, writer = os.pipe()
+    os.close(reader)
+    done = subprocess.run([TRACKVIB, "--help"], stdout=writer, stderr=subprocess.PIPE, text=True, cwd=tmp_path)
+    os.close(writer)
+    assert (done.returncode, done.stderr) == (-signal.SIGPIPE, "")

@@ -36,6 +36,7 @@ def test_a_csv_file_beside_a_bag(start_cli, tmp_path):
     compare = start_cli("compare", "drive.csv", "run", "--csv", columns, "--out", "new")
     assert compare.wait() == 0, compare.output
     assert "simulated over measured, not aligned" in compare.output and "1.50" in compare.output
+    assert "measured: drive.csv: 6 s count, after 2 s of settling (the shortest)" in compare.output
     with (tmp_path / "new" / "comparison.csv").open(encoding="utf-8") as file:
         found = {(row["part"], row["axis"], row["quantity"]): row for row in csv.DictReader(file)}
     assert float(found["chassis", "z", "RMS"]["ratio"]) == pytest.approx(1.5, rel=1e-3)

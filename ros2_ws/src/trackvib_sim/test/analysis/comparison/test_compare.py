@@ -7,6 +7,7 @@ import pytest
 from trackvib_sim.analysis.analyse import analyse
 from trackvib_sim.analysis.comparison.compare import THROUGH, compare
 from trackvib_sim.analysis.comparison.intervals import jackknifed, ratio_interval
+from trackvib_sim.analysis.comparison.settlings import settlings
 from trackvib_sim.analysis.comparison.tables import write_comparison
 from trackvib_sim.analysis.report.page import write_report
 from trackvib_sim.analysis.report.ratio_section import ratio_section
@@ -142,3 +143,26 @@ def test_text_from_bags_is_escaped(tmp_path):
     data = [build_report_data(*each) for each in zip(recordings, analyses, strict=True)]
     write_report(data, tmp_path / "report.html", [ratio_section(compare(recordings, analyses))])
     assert SCRIPT not in (tmp_path / "report.html").read_text()
+
+
+@pytest.mark.property
+def test_both_settle_by_one_rule():
+    """As their own runs tell; what tells nothing as the other one; by what is asked for both. The report says it."""
+    slow, fast = (
+        drive(1)._replace(
+            provenance={
+                "parameters of /road_excitation": {"level_until": "8.0", "fade": "8.0", "begins": "16.0"},
+                "parameters of /simulator": {"engine_speed": "1650.0", "speed": speed},
+            }
+        )
+        for speed in ("3.7", "18.5")
+    )
+    logger = drive(2)._replace(provenance={})
+    assert settlings([logger, slow]) == [(5.0, "as the other one, for it tells nothing"), (5.0, "by its own run")]
+    assert settlings([slow, fast]) == [(5.0, "by its own run"), (2.0, "by its own run")]
+    assert settlings([logger, logger]) == [(2.0, "the shortest")] * 2
+    assert settlings([logger, slow], 7.0) == [(7.0, "as asked for")] * 2
+    found = compare([logger, slow], [analyse(each, 5.0) for each in (logger, slow)])
+    assert found.settle == (5.0, 5.0)
+    assert found.windows == (24, 24)  # of 2 s, half overlapping, in 25 s
+    assert "first 5 s of the measured drive and the first 5 s of the simulated one do not" in ratio_section(found).words
