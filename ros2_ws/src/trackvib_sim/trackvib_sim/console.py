@@ -56,10 +56,10 @@ def _fit(table, width):
 def _narrow(widths, least, room):
     """Take from the widest columns, none below its least width, until all fit the room or nothing is left to take."""
     while sum(widths) > room:
-        spare = [(wide, k) for k, (wide, low) in enumerate(zip(widths, least, strict=True)) if wide > low]
+        spare = [k for k, (wide, low) in enumerate(zip(widths, least, strict=True)) if wide > low]
         if not spare:
             return
-        widths[max(spare)[1]] -= 1
+        widths[max(spare, key=widths.__getitem__)] -= 1
 
 
 def _least(texts, shortest):

@@ -131,8 +131,10 @@ def _follow(processes, choices, console):
         task = progress.add_task("starting", total=choices.duration, pace="-")
         from . import run_summary  # noqa: F401  what measures the run is loaded while its nodes start
 
-        while not processes.ended():
-            values = watch.look(_LOOK)
+        values, over = {}, False
+        while not over:
+            over = bool(processes.ended())  # what was said at last is still to be heard
+            values = watch.look(0.0 if over and values else _LOOK)
             if values:
                 progress.update(
                     task,
