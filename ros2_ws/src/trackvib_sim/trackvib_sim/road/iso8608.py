@@ -25,7 +25,7 @@ from .classes import CLASSES
 REFERENCE_FREQUENCY = 0.1  # 1/m
 LOWEST, HIGHEST = 0.011, 2.83  # 1/m, the standard's range
 HARMONICS = 1000
-KEPT = 1000  # patches, 1.6 MB: studies drive over the same few roads again and again
+KEPT, LONGEST_KEPT = 1000, 1000  # patches, and samples of one: studies drive over the same few roads again and again
 SPACING = 0.05  # m
 TREAD = 2.8  # m between the tracks, by default
 LEVEL_UNTIL, FADE = 8.0, 8.0  # m, by default: a vehicle starts on level ground, then the roughness fades in
@@ -145,7 +145,7 @@ class Iso8608Road:
 
         The result for a sample does not depend on the requested patch, to the last bit.
         """
-        return _heights(self, first, count).copy()
+        return _kept(self, first, count).copy() if count <= LONGEST_KEPT else _heights(self, first, count)
 
     @cached_property
     def _harmonics(self):
@@ -161,11 +161,13 @@ class Iso8608Road:
         return frequency, weights, phases
 
 
-@lru_cache(KEPT)
 def _heights(road, first, count):
     heights = np.empty((2, count))
     _superpose(heights, first, road.spacing, *road._harmonics, road.level_until, road.fade)
     return heights
+
+
+_kept = lru_cache(KEPT)(_heights)
 
 
 @kernel
