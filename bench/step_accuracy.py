@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 import trackvib_sim as tv
 from machine import machine
-from peers import PinocchioTree
+from peers import aba_tasks, aba_time
 from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
@@ -24,7 +24,6 @@ from trackvib_sim.analysis.vibration import band_limited
 from trackvib_sim.data import DEFAULT_VEHICLE, find_vehicle, vehicle_names
 from trackvib_sim.new_files import new_file
 from trackvib_sim.road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road
-from trackvib_sim.rui.state import rest_state
 from trackvib_sim.vehicle.body_tree import build_body_table
 from trackvib_sim.vehicle.step_size import longest_step, recommended_rate
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
@@ -58,21 +57,16 @@ def largest_change(coarse, fine):
     return ratio[worst] - 1.0, error[worst] / np.sqrt(len(coarse))
 
 
-def aba_time(vehicle):
-    """Return a function that times a call of aba on a vehicle's body tree [s], its call from Python taken off."""
-    bodies = build_body_table(vehicle)
-    peers = [PinocchioTree(each, (0.0, 0.0, -9.81)) for each in (bodies, bodies[:1])]
-    for peer, each in zip(peers, (bodies, bodies[:1]), strict=True):
-        state = rest_state(each)
-        peer.accelerations(state, np.zeros(len(state.hinge)))
+def aba_clock(vehicle):
+    """Return a function that times a call of aba on a vehicle's body tree [s]."""
+    tasks = aba_tasks(build_body_table(vehicle), (0.0, 0.0, -9.81), CALLS)
 
-    def seconds(call):
+    def seconds(task):
         began = time.process_time()
-        call()
+        task()
         return time.process_time() - began
 
-    return lambda: min(seconds(peers[0].calls(CALLS)[how]) - seconds(peers[1].calls(CALLS)[how])
-                       for how in peers[0].calls(CALLS)) / CALLS  # fmt: skip
+    return lambda: aba_time({name: seconds(task) for name, task in tasks.items()}, CALLS)
 
 
 def main():
@@ -81,7 +75,7 @@ def main():
     arguments.add_argument("--picture", help="where to draw it")
     picture = arguments.parse_args().picture
     vehicles = {name: read_vehicle(find_vehicle(name))[0] for name in vehicle_names()}
-    aba = aba_time(vehicles[DEFAULT_VEHICLE])
+    aba = aba_clock(vehicles[DEFAULT_VEHICLE])
     rows, calls = {}, []
     with Progress(console=Console(stderr=True)) as progress:
         bar = progress.add_task("drives", total=len(vehicles) * len(SPEEDS) * len(RATES) * DRIVES)

@@ -12,13 +12,12 @@ import argparse
 
 import numpy as np
 from machine import best_times, machine
-from peers import PinocchioTree
+from peers import aba_tasks, aba_time
 from rich.console import Console
 from rich.table import Table
 from step_parts import part_tasks, parts_of_step
 from trackvib_sim.data import DEFAULT_VEHICLE, find_vehicle, vehicle_names
 from trackvib_sim.road.iso8608 import FADE, LEVEL_UNTIL, Iso8608Road
-from trackvib_sim.rui.state import rest_state
 from trackvib_sim.simulation.settings import Rates, RunSettings
 from trackvib_sim.simulation.simulation import Simulation
 from trackvib_sim.vehicle.body_tree import build_body_table
@@ -67,17 +66,11 @@ def main():
     arguments.add_argument("--parts", action="store_true", help="print the parts of a step, too")
     with_parts = arguments.parse_args().parts
     vehicles = {name: read_vehicle(find_vehicle(name))[0] for name in vehicle_names()}
-    bodies = build_body_table(vehicles[DEFAULT_VEHICLE])
     drives = {name: Drive(vehicle) for name, vehicle in vehicles.items()}
-    peers = {"tree": PinocchioTree(bodies, GRAVITY), "one body": PinocchioTree(bodies[:1], GRAVITY)}
-    for name, peer in peers.items():
-        state = rest_state(bodies if name == "tree" else bodies[:1])
-        peer.accelerations(state, np.zeros(len(state.hinge)))
-    conventions = peers["tree"].calls(CALLS).keys()
-    tasks = {(name, how): peer.calls(CALLS)[how] for name, peer in peers.items() for how in conventions}
+    tasks = aba_tasks(build_body_table(vehicles[DEFAULT_VEHICLE]), GRAVITY, CALLS)
     parts = {(name, part): task for name, drive in drives.items() if with_parts for part, task in drive.parts().items()}
     times = best_times({**drives, **tasks, **parts}, ROUNDS)
-    aba = min(times["tree", how] - times["one body", how] for how in conventions) / CALLS
+    aba = aba_time({task: times[task] for task in tasks}, CALLS)
     simulated = CHUNK * 1e-3
     factor = simulated / times[DEFAULT_VEHICLE]
     calls = {name: times[name] / simulated / aba for name in vehicles}

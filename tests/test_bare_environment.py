@@ -4,9 +4,12 @@ import os
 import shutil
 import subprocess
 import sys
+from hashlib import sha1
 from pathlib import Path
 
+import numba
 import pytest
+import trackvib_sim
 
 pytestmark = [pytest.mark.system, pytest.mark.slow(reason="installs the library with pip")]
 
@@ -43,7 +46,7 @@ def bare(tmp_path_factory):
     environment = {name: os.environ[name] for name in KEPT if name in os.environ} | {
         name: value for name, value in os.environ.items() if name.startswith("PIP_") or name.lower().endswith("_proxy")
     }
-    environment["NUMBA_OPT"] = "0"  # every kernel is compiled, for two hundred periods only
+    environment["NUMBA_CACHE_DIR"] = str(folder / "kernels")
     base = Path(sys.base_prefix) / "bin" / f"python3.{sys.version_info.minor}"
     python = folder / "venv" / "bin" / "python"
 
@@ -54,9 +57,29 @@ def bare(tmp_path_factory):
 
     made = subprocess.run([base, "-m", "venv", folder / "venv"], env=environment, capture_output=True, text=True)
     assert made.returncode == 0, made.stderr
-    done = run("-m", "pip", "install", "--no-compile", *(f"./{package}" for package in PACKAGES))
+    packages = (f"numba=={numba.__version__}", *(f"./{package}" for package in PACKAGES))
+    done = run("-m", "pip", "install", "--no-compile", *packages)
     assert done.returncode == 0, done.stdout + done.stderr
+    installed = run("-c", "import trackvib_sim; print(trackvib_sim.__path__[0])").stdout.strip()
+    share_kernels(Path(trackvib_sim.__file__).parent, Path(installed), folder / "kernels")
     return run
+
+
+def share_kernels(compiled, installed, folder):
+    """Copy to `folder` the kernels of the same sources that the set-up has compiled, under the other package's path.
+
+    Compiling them again would take most of the test's time. numba names a cache by its sources' folder.
+    """
+
+    def name(room):
+        return f"{room.name}_{sha1(str(room).encode()).hexdigest()}"
+
+    rooms = [path for path in (compiled, *compiled.rglob("*")) if path.is_dir()]
+    for room in rooms:
+        kernels = Path(numba.config.CACHE_DIR) / name(room)
+        if kernels.is_dir():
+            shutil.copytree(kernels, folder / name(installed / room.relative_to(compiled)))
+    assert any(folder.iterdir())
 
 
 def test_drives_and_measures(bare, recorded_run):

@@ -26,7 +26,8 @@ from std_msgs.msg import String
 from trackvib_msgs.msg import CoilCurrent, MountState, RoadProfile
 from trackvib_sim.bags.mcap_summary import examine
 from trackvib_sim.nodes.controller_trial import ControllerTrial
-from trackvib_sim.nodes.recorder import DEFAULT_TOPICS, RecorderNode
+from trackvib_sim.nodes.recorder import RecorderNode
+from trackvib_sim.nodes.recorder_parameters import DEFAULT_TOPICS
 from trackvib_sim.nodes.road_excitation import RoadExcitationNode
 from trackvib_sim.nodes.simulator import SimulatorNode
 from trackvib_sim.nodes.watch import Watch

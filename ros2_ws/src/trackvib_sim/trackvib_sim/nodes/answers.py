@@ -54,17 +54,28 @@ class Answers:
             )
 
 
-def misfits(node, publishers):
-    """Yield, in a sentence each, who listens to one of some publishers and cannot hear it by his quality of service."""
-    for publisher in publishers:
-        for each in node.get_subscriptions_info_by_topic(publisher.topic_name):
-            verdict, reason = qos_check_compatible(publisher.qos_profile, _asked_for(each.qos_profile))
-            name = full_name(each)
-            if verdict == QoSCompatibility.ERROR and is_known(name):
-                yield (
-                    f"{readable(name)} receives nothing on {publisher.topic_name}, its QoS is incompatible: "
-                    f"{reason.rstrip(' ;')}"
-                )
+class DeafListeners:
+    """Tells, once each, who listens to one of some publishers and cannot hear it by his quality of service."""
+
+    def __init__(self, node, publishers):
+        self._node, self._publishers, self._told = node, publishers, set()
+
+    def tell(self):
+        """Warn of those that have come since the last time."""
+        for sentence in set(self._sentences()) - self._told:
+            self._told.add(sentence)
+            self._node.get_logger().warning(sentence)
+
+    def _sentences(self):
+        for publisher in self._publishers:
+            for each in self._node.get_subscriptions_info_by_topic(publisher.topic_name):
+                verdict, reason = qos_check_compatible(publisher.qos_profile, _asked_for(each.qos_profile))
+                name = full_name(each)
+                if verdict == QoSCompatibility.ERROR and is_known(name):
+                    yield (
+                        f"{readable(name)} receives nothing on {publisher.topic_name}, its QoS is incompatible: "
+                        f"{reason.rstrip(' ;')}"
+                    )
 
 
 def _asked_for(profile):

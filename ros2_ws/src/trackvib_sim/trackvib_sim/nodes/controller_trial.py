@@ -17,7 +17,7 @@ from sensor_msgs.msg import Imu
 from trackvib_msgs.msg import MountDescription
 
 from ..simulation.lockstep import Lockstep
-from .answers import Answers, misfits
+from .answers import Answers, DeafListeners
 from .messages import mount_description
 from .partners import Gathering
 
@@ -69,12 +69,10 @@ class ControllerTrial:
 
     def wait_for_controller(self, check):
         """Wait until a controller listens and answers; `check()` is called meanwhile and may raise."""
-        gathering, told = Gathering(self._present), set()
+        gathering, deaf = Gathering(self._present), DeafListeners(self._node, self._imus)
         while not gathering.complete():
             check()
-            for misfit in set(misfits(self._node, self._imus)) - told:
-                told.add(misfit)
-                self._node.get_logger().warning(misfit)
+            deaf.tell()
             self._patience.look(_TICK)
 
     def type_hash(self):

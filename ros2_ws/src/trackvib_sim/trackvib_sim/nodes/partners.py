@@ -67,11 +67,12 @@ class SecondClock:
         self._topic = node.listen(Clock, topics.CLOCK, self._on_clock, CLOCK_QOS).topic_name
 
     def listen(self):
-        """Have listened for as long as a simulator that is there already needs to make itself known."""
+        """Have listened for as long as a simulator that is there already needs to make itself known; `refuse` it."""
         left = self._since + _LISTENING - time.monotonic()
         self._node.spin_until(lambda: self._heard > -inf, max(left, _LOOK))
         if self._heard > -inf:
             self._node.spin_until(lambda: self.ahead, _AGAIN)
+        self.refuse()
 
     def refuse(self):
         """Raise `NodeError` if there is one that is ahead."""

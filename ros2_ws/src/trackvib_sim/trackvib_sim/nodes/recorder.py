@@ -8,7 +8,6 @@ from datetime import datetime
 from builtin_interfaces.msg import Time
 from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.loop_node import LoopNode, NodeError, run_node
-from mr_mount_controller.node_base.parameters import Parameter
 from mr_mount_controller.node_base.plain_text import plain_line
 from mr_mount_controller.node_base.qos import LATCHED_QOS
 from rclpy.serialization import deserialize_message
@@ -17,45 +16,14 @@ from std_msgs.msg import String
 from ..bags.errors import BagError
 from ..bags.provenance import write_parameters, write_versions
 from ..bags.timekeeping import Timekeeping
-from ..bags.writing import COMPRESSIONS, BagWriter
+from ..bags.writing import BagWriter
 from ..numerics.units import NANO
 from .graph import is_known, publishing_nodes
 from .messages import message_type
 from .provenance import parameters_of
+from .recorder_parameters import PARAMETERS
 from .topic_choice import TopicChoice, subscribe
 
-DEFAULT_TOPICS = [
-    topics.CHASSIS_IMU,
-    topics.POWERTRAIN_IMU,
-    topics.COIL_CURRENT,
-    topics.MOUNT_STATE,
-    topics.ODOMETRY,
-    topics.DRIVE_STATE,
-    topics.DRIVE_DESCRIPTION,
-    topics.DRIVE_COMMAND,
-    topics.ROAD_PROFILE,
-    topics.VEHICLE_DESCRIPTION,
-    topics.MOUNT_DESCRIPTION,
-    topics.CLOCK,
-    topics.DIAGNOSTICS,
-]
-PARAMETERS = (
-    Parameter(
-        "bag",
-        "",
-        "Folder of the bag; empty for bag_<date and time> in the working directory. Each further epoch is written to "
-        "a separate bag, <bag>_epoch_2 and so on.",
-    ),
-    Parameter("topics", DEFAULT_TOPICS, "Topics to record; recording starts when all of them exist. [''] for none."),
-    Parameter(
-        "pattern",
-        "",
-        "Regular expression for further topics in the recorder's namespace, which are recorded as soon as they "
-        "appear. It is searched in the name without the namespace, such as `/chassis/imu`.",
-    ),
-    Parameter("compression", "zstd", "Compression of the chunks of the bag.", choices=tuple(COMPRESSIONS)),
-    Parameter("chunk_size", 1024, "Chunk size before compression.", "KiB", 16, 65536),
-)
 _NAMES_TIMEOUT = 3.0  # s
 _REST = 0.02  # s between looks; waking for every message would take the processor from the loop
 _FLUSH = 0.5  # s; a recorder that is killed loses this much and a look at most

@@ -17,13 +17,15 @@ from trackvib_msgs.msg import RoadProfile
 from ..numerics.units import NANO
 from ..simulation.lockstep import Lockstep
 from ..simulation.simulation import RunFailed
-from .answers import Answers, misfits
+from .answers import Answers, DeafListeners
 from .health import health, summary
 from .output import DIAGNOSTICS_RATE, SimulatorOutput
+from .pace import UntilAnswered, UntilDue
 from .partners import Gathering, RecorderLag, SecondClock, view_is_reached
 from .run_control import RunControl, services
+from .silence import Silence
 from .simulator_parameters import PARAMETERS, prepare
-from .timing import Lateness, PhaseClock
+from .timing import PhaseClock
 
 # where ROS 2 has the types of the standard simulation interfaces
 _STANDARD = import_module(".standard_services", __package__) if find_spec("simulation_interfaces") else None
@@ -42,22 +44,21 @@ class SimulatorNode(LoopNode):
         s = self.settings
         self._waits_for_answers = s["pace"] == "lockstep"
         self._second_clock = SecondClock(self, self._time)  # it listens while the simulation is prepared
-        self._simulation, usable, vehicle_text, drive_text = prepare(s)
+        self._simulation, self._usable, vehicle_text, drive_text = prepare(s)
         self._simulation.load()
-        self._usable = usable
         self._begin_counts()
         self._warned = False  # of several controllers
-        self._misfits = set()  # sentences on listeners that cannot hear, as they were said
 
         self._output = SimulatorOutput(self, self._simulation, vehicle_text, drive_text)
+        self._deaf = DeafListeners(self, self._output.loop_publishers)
         self._answers = Answers(self, self._simulation.mounting.coils, self._on_answer, self.listen)
         self.listen(RoadProfile, topics.ROAD_PROFILE, self._on_road, ROAD_QOS)
         self.listen(TwistStamped, topics.CMD_VEL, self._on_command, LOOP_QOS)
         self._control = RunControl(self, self._time)
         standard = (self, self._control, self._simulation, vehicle_text)
         self._standard = _STANDARD.StandardServices(*standard) if _STANDARD else None
-        period = self._simulation.settings.rates.period
-        self._recorder = RecorderLag(self, period, self._time, lambda: self._heard) if s["wait_for_recorder"] else None
+        follow = self._simulation.settings.rates.period, self._time, lambda: self._silence.heard
+        self._recorder = RecorderLag(self, *follow) if s["wait_for_recorder"] else None
 
     def prepare(self, spin, stopping):
         """Take the executor's spin function and the stop flag, beside which a service may end the node."""
@@ -71,29 +72,31 @@ class SimulatorNode(LoopNode):
         coils = self._simulation.mounting.coils
         self._lockstep = Lockstep(coils, self.settings["passive_current"], self._usable, self._waits_for_answers)
         self._phases = PhaseClock("physics", "publishing", "answer", "holding")
-        self._lateness = Lateness()  # of the periods in real time
-        self._silent = False  # no answer came in time; the loop runs on without waiting
-        self._heard = self._heard_before = -1  # latest sample that somebody has answered, now and when silence fell, ns
-        self._start = time.perf_counter()  # of the schedule in real time
+        self._silence = Silence(self.settings["on_silence"], self.settings["passive_current"], self._lockstep)
+        kind = UntilAnswered if self._waits_for_answers else UntilDue
+        self._pace = kind(self, self._lockstep, self._silence, self._simulation)
 
     def run(self):
         """Wait for the partners, then run period after period until the duration is over or a stop is asked for."""
         schedule(self.settings)
         self._second_clock.listen()
-        self._second_clock.refuse()
         self._output.introduce()
         self._wait_for_partners()
         self._second_clock.refuse()
         periods = math.ceil(self.settings["duration"] * self._simulation.settings.rates.control)
         self._control.state = "running"
-        self._start = time.perf_counter()
-        while not self.stopping() and (periods == 0 or self._simulation.periods < periods):
-            if self._control.reset_wanted:
-                self._start_anew()
-            elif self._control.holding:
-                self._pause()
-            else:
-                self._one_period()
+        self._pace.start()
+        try:
+            while not self.stopping() and (periods == 0 or self._simulation.periods < periods):
+                if self._control.reset_wanted:
+                    self._start_anew()
+                elif self._control.holding:
+                    self._pause()
+                else:
+                    self._one_period()
+        except NodeError:
+            self._control.state = "failed"
+            raise
         if self._recorder:
             self._recorder.complete()
         if not self.stopping():
@@ -134,7 +137,7 @@ class SimulatorNode(LoopNode):
         self._control.state = "paused"  # only now: who is told so may stop the other nodes
         self._stand_until(lambda: not self._control.holding)
         self._control.state = "running"
-        self._start += time.perf_counter() - began
+        self._pace.postpone(time.perf_counter() - began)
         self._publish_diagnostics()
 
     def _one_period(self):
@@ -145,7 +148,6 @@ class SimulatorNode(LoopNode):
         try:
             self._simulation.advance(self._lockstep.currents)
         except RunFailed as failure:
-            self._control.state = "failed"
             raise NodeError(f"run failed: {failure}") from None
         self._phases.start("publishing")
         self._lockstep.publish(self._time())
@@ -153,14 +155,11 @@ class SimulatorNode(LoopNode):
         if self._simulation.periods % (self._simulation.settings.rates.control // DIAGNOSTICS_RATE) == 0:
             self._publish_diagnostics()
             self._second_clock.refuse()
-        self._phases.start("answer" if self._waits_for_answers else "holding")
-        if self._waits_for_answers:
-            self._wait_for_answer()
-            self._phases.start("holding")
-            if self._recorder:
-                self._recorder.wait()
-        else:
-            self._wait_for_wall_clock()
+        self._phases.start(self._pace.PHASE)
+        self._pace.wait()
+        self._phases.start("holding")
+        if self._recorder and self._waits_for_answers:
+            self._recorder.wait()
         self._phases.stop()
         self._control.end_period()
 
@@ -168,14 +167,13 @@ class SimulatorNode(LoopNode):
 
     def _wait_for_partners(self):
         """Wait until road, controller and recorder are there and nobody else has come for a moment."""
-        others = ", a recorder" if self._recorder else ""
-        others += ", a live view" if self.settings["wait_for_view"] else ""
+        others = ", a recorder" * bool(self._recorder) + ", a live view" * self.settings["wait_for_view"]
         self.get_logger().info(
             f"waiting for a road on {topics.ROAD_PROFILE}, a controller that subscribes to {topics.CHASSIS_IMU} or "
             f"{topics.POWERTRAIN_IMU} and answers on {topics.COIL_CURRENT}{others}"
         )
         gathering = Gathering(self._present)
-        self._stand_until(lambda: gathering.complete() or self._second_clock.ahead, self._tell_misfits)
+        self._stand_until(lambda: gathering.complete() or self._second_clock.ahead, self._deaf.tell)
         if not self.stopping():
             self.get_logger().info("all partners are present, running")
 
@@ -184,12 +182,6 @@ class SimulatorNode(LoopNode):
         view = not self.settings["wait_for_view"] or view_is_reached(self)
         listeners = sum(self._output.listeners())
         return self._simulation.road_is_enough(), self._answers.count(), listeners, recorder, view
-
-    def _tell_misfits(self):
-        """Say once who listens and cannot hear."""
-        for misfit in set(misfits(self, self._output.loop_publishers)) - self._misfits:
-            self._misfits.add(misfit)
-            self.get_logger().warning(misfit)
 
     def _stand_until(self, condition, meanwhile=lambda: None):
         """Wait for a condition, a reset or a stop; every now and then say in which state and at what time."""
@@ -206,7 +198,6 @@ class SimulatorNode(LoopNode):
             return True
         where = f"at {self._simulation.distance:.1f} m (t = {self._time() / NANO:.3f} s)"
         if not self._waits_for_answers:
-            self._control.state = "failed"
             raise NodeError(f"no road ahead {where}")
         self.get_logger().warning(f"no road ahead {where}, waiting for {topics.ROAD_PROFILE}")
         self._output.publish_odometry()
@@ -215,51 +206,9 @@ class SimulatorNode(LoopNode):
         self._control.state = "running"
         return there
 
-    def _wait_for_answer(self):
-        answered = lambda: self._lockstep.answered  # noqa: E731
-        if self._silent and self._heard == self._heard_before:
-            self.spin_once(0.0)
-            if not answered():
-                self._lockstep.counts["silent_periods"] += 1
-            return
-        if self._silent:
-            self.get_logger().info("the controller answers again, waiting for every answer")
-        self._silent = False
-        if not self.spin_until(answered, self.settings["answer_timeout"]) and not self.stopping():
-            self._lockstep.counts["silent_periods"] += 1
-            self._on_silence(f"no answer to the sample at t = {self._time() / NANO:.3f} s")
-
-    def _wait_for_wall_clock(self):
-        due = self._start + self._time() / NANO / self.settings["real_time_factor"]
-        counts = self._lockstep.counts
-        if time.perf_counter() > due + self._simulation.settings.rates.period / NANO:
-            if not counts["overruns"]:
-                self.get_logger().warning("this machine is slower than the requested pace; overruns are counted")
-            counts["overruns"] += 1
-        while (left := due - time.perf_counter()) > 0.0 and not self.stopping():
-            self.spin_once(left)
-        self._lateness.add(-left)
-        before = None
-        while before != counts:  # the latest current counts, so none may be left waiting
-            before = counts.copy()
-            self.spin_once(0.0)
-        timeout = self.settings["answer_timeout"] * self.settings["real_time_factor"]
-        silent = self._time() - self._lockstep.answered_stamp > timeout * NANO
-        counts["silent_periods"] += silent
-        if silent and not self._silent:
-            self._on_silence(f"no answer since t = {self._lockstep.answered_stamp / NANO:.3f} s")
-        self._silent = silent
-
-    def _on_silence(self, what):
-        policy = self.settings["on_silence"]
-        self._silent, self._heard_before = True, self._heard
-        if policy == "stop":
-            self._control.state = "failed"
-            raise NodeError(f"{what}; on_silence is 'stop'")
-        if policy == "passive":
-            self._lockstep.fall_back(self.settings["passive_current"])
-        action = "holding the last current" if policy == "hold" else "falling back to the passive current"
-        self.get_logger().warning(f"{what}; {action} until the controller answers again")
+    def fall_silent(self, what):
+        """Do what `on_silence` wants, after `what` was missed; raises `NodeError` where that is to stop."""
+        self.get_logger().warning(self._silence.begin(what))
         self._publish_diagnostics()
 
     # --- messages ---
@@ -268,7 +217,7 @@ class SimulatorNode(LoopNode):
         _, stamp, currents = answer
         # who is late is on the way back; who repeats itself or makes no sense is not
         if self._lockstep.offer(stamp, currents) in ("accepted", "late"):
-            self._heard = max(self._heard, stamp)
+            self._silence.hear(stamp)
 
     def _on_road(self, patch):
         try:
@@ -277,22 +226,22 @@ class SimulatorNode(LoopNode):
             raise Refused(str(error)) from None
 
     def _on_command(self, message):
-        speed, yaw_rate = message.twist.linear.x, message.twist.angular.z
+        command = message.twist.linear.x, message.twist.angular.z
         try:
-            self._simulation.command(speed, yaw_rate)
+            self._simulation.command(*command)
         except ValueError as error:
             raise Refused(str(error)) from None
-        self._output.publish_command(speed, yaw_rate)
+        self._output.publish_command(*command)
 
     def _publish_diagnostics(self):
         controllers = self._answers.count()
         if controllers > 1 and not self._warned:
             self._warned = True
             self.get_logger().warning(f"{controllers} nodes answer on {topics.COIL_CURRENT}; the first answer is used")
-        level, values = health(self._control, self._simulation, self._lockstep, self._phases, self._silent, controllers)
-        values |= self._lateness.quantiles()
-        values["refused"] = self.refused
-        values["duration"] = self.settings["duration"]
+        level, values = health(
+            self._control, self._simulation, self._lockstep, self._phases, self._silence.now, controllers
+        )
+        values |= {**self._pace.told(), "refused": self.refused, "duration": self.settings["duration"]}
         self._output.publish_diagnostics(level, values["state"], values)
 
 

@@ -13,7 +13,7 @@ the coherence x K1(x), x = 2 pi n d, between two lines d apart [Kamash1978]; K1 
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -25,6 +25,7 @@ from .classes import CLASSES
 REFERENCE_FREQUENCY = 0.1  # 1/m
 LOWEST, HIGHEST = 0.011, 2.83  # 1/m, the standard's range
 HARMONICS = 1000
+KEPT, LONGEST_KEPT = 1000, 1000  # patches, and samples of one: studies drive over the same few roads again and again
 SPACING = 0.05  # m
 TREAD = 2.8  # m between the tracks, by default
 LEVEL_UNTIL, FADE = 8.0, 8.0  # m, by default: a vehicle starts on level ground, then the roughness fades in
@@ -129,7 +130,7 @@ class Iso8608Road:
     seed: int
     level_until: float = LEVEL_UNTIL
     fade: float = FADE
-    coherence: Callable = Isotropic()  # of left and right, function of the spatial frequency
+    coherence: Callable = Isotropic()  # of left and right, a hashable function of the spatial frequency
     spacing: float = SPACING  # m, between samples
 
     ends = np.inf  # m
@@ -144,9 +145,7 @@ class Iso8608Road:
 
         The result for a sample does not depend on the requested patch, to the last bit.
         """
-        heights = np.empty((2, count))
-        _superpose(heights, first, self.spacing, *self._harmonics, self.level_until, self.fade)
-        return heights
+        return _kept(self, first, count).copy() if count <= LONGEST_KEPT else _heights(self, first, count)
 
     @cached_property
     def _harmonics(self):
@@ -160,6 +159,15 @@ class Iso8608Road:
         weights = amplitude * np.stack((np.sqrt(common), np.sqrt(1.0 - common)))
         phases = 2.0 * np.pi * random.random((3, HARMONICS))
         return frequency, weights, phases
+
+
+def _heights(road, first, count):
+    heights = np.empty((2, count))
+    _superpose(heights, first, road.spacing, *road._harmonics, road.level_until, road.fade)
+    return heights
+
+
+_kept = lru_cache(KEPT)(_heights)
 
 
 @kernel
