@@ -22,7 +22,8 @@ import rclpy
 from ament_index_python.packages import get_package_prefix
 from machine import machine
 from mcap.reader import make_reader
-from mr_mount_controller.node_base.loop_node import LoopNode, run_node
+from mr_mount_controller.node_base.loop_node import LoopNode
+from mr_mount_controller.node_base.node_process import run_node
 from mr_mount_controller.node_base.qos import LOOP_WRITER_QOS
 from rclpy.duration import Duration
 from rclpy.qos import QoSProfile

@@ -12,7 +12,7 @@ PACKAGES = ("mr_mount_controller", "trackvib_sim")  # the second may import the 
 ROS = {"rclpy", "rcl_interfaces", "builtin_interfaces", "launch", "launch_ros"}
 ROS_SUFFIX = "_msgs"
 IMPORTING_ROS = re.compile(
-    r"trackvib_sim\.nodes\..*|mr_mount_controller\.(node|node_base\.(descriptors|listener|loop_node|packed_message|qos))"
+    r"trackvib_sim\.nodes\..*|mr_mount_controller\.(node|node_base\.(descriptors|listener|loop_node|node_process|packed_message|qos))"
 )
 
 pytestmark = pytest.mark.property

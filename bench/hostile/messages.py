@@ -15,7 +15,8 @@ import rclpy
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from mr_mount_controller.node import ControllerNode
-from mr_mount_controller.node_base.loop_node import NodeError, start_ros
+from mr_mount_controller.node_base.loop_node import NodeError
+from mr_mount_controller.node_base.node_process import start_ros
 from nav_msgs.msg import Odometry
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node

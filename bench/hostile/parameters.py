@@ -11,7 +11,8 @@ import rclpy
 from mr_mount_controller.laws import find_law, known_laws
 from mr_mount_controller.node import PARAMETERS as CONTROLLER
 from mr_mount_controller.node import ControllerNode
-from mr_mount_controller.node_base.loop_node import NodeError, start_ros
+from mr_mount_controller.node_base.loop_node import NodeError
+from mr_mount_controller.node_base.node_process import start_ros
 from mr_mount_controller.node_base.parameters import ParameterError
 from mr_mount_controller.node_base.plain_text import plain_line
 from rclpy._rclpy_pybind11 import RCLError

@@ -8,7 +8,7 @@ from importlib import import_module
 
 import rclpy
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
-from mr_mount_controller.node_base.loop_node import start_ros
+from mr_mount_controller.node_base.node_process import start_ros
 from rclpy.experimental import EventsExecutor
 
 from environment.ros2_stand_in.terminal import Failure

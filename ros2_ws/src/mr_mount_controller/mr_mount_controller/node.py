@@ -18,7 +18,8 @@ from .laws.running import answer, changed_law, law_code, make_law, run_law_on
 from .mounting import MOST_COILS, described, undescribed
 from .node_base.cdr import NANO
 from .node_base.listener import Refused
-from .node_base.loop_node import LoopNode, NodeError, run_node
+from .node_base.loop_node import LoopNode, NodeError
+from .node_base.node_process import run_node
 from .node_base.packed_message import MessageReader, PackedMessage
 from .node_base.parameters import Parameter
 from .node_base.patience import Patience

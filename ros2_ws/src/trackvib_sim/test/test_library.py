@@ -24,6 +24,7 @@ OF_ROS = {
     "mr_mount_controller.node_base.descriptors",
     "mr_mount_controller.node_base.listener",
     "mr_mount_controller.node_base.loop_node",
+    "mr_mount_controller.node_base.node_process",
     "mr_mount_controller.node_base.packed_message",
     "mr_mount_controller.node_base.qos",
     "trackvib_sim.commands.replay_controller",

@@ -7,7 +7,7 @@ import rclpy
 from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.interrupts import put_off_interrupts
 from mr_mount_controller.node_base.listener import Listener
-from mr_mount_controller.node_base.loop_node import start_ros
+from mr_mount_controller.node_base.node_process import start_ros
 from mr_mount_controller.node_base.patience import Patience
 from mr_mount_controller.node_base.qos import LATCHED_QOS, LOOP_WRITER_QOS
 from rclpy.experimental import EventsExecutor

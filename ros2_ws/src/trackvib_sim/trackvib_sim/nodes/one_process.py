@@ -3,7 +3,7 @@
 import sys
 
 from mr_mount_controller.node import ControllerNode
-from mr_mount_controller.node_base.loop_node import run_node
+from mr_mount_controller.node_base.node_process import run_node
 
 from .road_excitation import RoadExcitationNode
 from .simulator import SimulatorNode

@@ -8,7 +8,8 @@ from functools import partial
 from itertools import groupby
 
 from mr_mount_controller.node_base.cdr import LayoutError
-from mr_mount_controller.node_base.loop_node import LoopNode, NodeError, run_node
+from mr_mount_controller.node_base.loop_node import LoopNode, NodeError
+from mr_mount_controller.node_base.node_process import run_node
 from mr_mount_controller.node_base.parameters import Parameter, ParameterError
 from mr_mount_controller.node_base.plain_text import readable
 from mr_mount_controller.node_base.qos import CLOCK_QOS

@@ -7,7 +7,8 @@ from datetime import datetime
 
 from builtin_interfaces.msg import Time
 from mr_mount_controller.node_base import topics
-from mr_mount_controller.node_base.loop_node import LoopNode, NodeError, run_node
+from mr_mount_controller.node_base.loop_node import LoopNode, NodeError
+from mr_mount_controller.node_base.node_process import run_node
 from mr_mount_controller.node_base.plain_text import plain_line
 from mr_mount_controller.node_base.qos import LATCHED_QOS
 from rclpy.serialization import deserialize_message

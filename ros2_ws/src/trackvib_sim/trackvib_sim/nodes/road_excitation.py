@@ -4,7 +4,8 @@ import sys
 
 from mr_mount_controller.node_base.descriptors import descriptor_of
 from mr_mount_controller.node_base.listener import Refused
-from mr_mount_controller.node_base.loop_node import LoopNode, run_node
+from mr_mount_controller.node_base.loop_node import LoopNode
+from mr_mount_controller.node_base.node_process import run_node
 from mr_mount_controller.node_base.parameters import Parameter, ParameterError
 from mr_mount_controller.node_base.plain_text import plain_line
 from mr_mount_controller.node_base.qos import LATCHED_QOS, ROAD_QOS

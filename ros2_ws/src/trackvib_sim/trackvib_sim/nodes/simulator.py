@@ -9,7 +9,8 @@ from importlib.util import find_spec
 from geometry_msgs.msg import TwistStamped
 from mr_mount_controller.node_base import topics
 from mr_mount_controller.node_base.listener import Refused
-from mr_mount_controller.node_base.loop_node import LoopNode, NodeError, run_node
+from mr_mount_controller.node_base.loop_node import LoopNode, NodeError
+from mr_mount_controller.node_base.node_process import run_node
 from mr_mount_controller.node_base.qos import LOOP_QOS, ROAD_QOS
 from mr_mount_controller.node_base.scheduling import schedule
 from trackvib_msgs.msg import RoadProfile

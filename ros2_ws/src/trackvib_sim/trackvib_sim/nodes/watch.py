@@ -7,7 +7,7 @@ import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from mr_mount_controller.node_base.interrupts import put_off_interrupts
 from mr_mount_controller.node_base.listener import Listener, Refused
-from mr_mount_controller.node_base.loop_node import start_ros
+from mr_mount_controller.node_base.node_process import start_ros
 from mr_mount_controller.node_base.topics import CHASSIS_IMU, DIAGNOSTICS
 from rclpy.experimental import EventsExecutor
 

@@ -99,7 +99,7 @@ def test_verdict_compares_each_seed_with_itself():
         scatter = 0.0 if each.scenario == "e10" else np.nan  # of one run there is none
         for ours, expected in ((each.constant_gain, 30.0), (each.law_gain, 44.0), (each.over_best, 20.0)):
             assert ours == pytest.approx((expected, scatter), abs=1e-9, nan_ok=True)
-            assert ours.text() == (f"**{expected:+.1f} ± 0.0**" if each.scenario == "e10" else f"{expected:+.1f}")
+            assert ours.text() == (f"{expected:+.1f} ± 0.0 *" if each.scenario == "e10" else f"{expected:+.1f}")
         assert each.chance == pytest.approx(100.0 * np.std((2.5, 3.0, 3.5, 4.0), ddof=1) / 3.25)
     worse = gain(*(row.levels["force"] for row in (next(row for row in rows if row.current == 2.0), rows[0])))
     assert worse.mean < -100.0
@@ -126,7 +126,7 @@ def test_report_and_picture_can_be_made(tmp_path):
     rows = table_rows(made_up())
     text = report(rows, 2, "my.yaml", "text of the vehicle")
     assert "`my.yaml`, SHA-256 `" in text
-    gains = "**+30.0 ± 0.0** | `skyhook` | **+44.0 ± 0.0** | **+20.0 ± 0.0** | 19.9"
+    gains = "+30.0 ± 0.0 * | `skyhook` | +44.0 ± 0.0 * | +20.0 ± 0.0 * | 19.9"
     assert f"| class E, 10 m/s | `powertrain` | 0.7 | {gains} |" in text
     assert "| class E, 10 m/s | 1.50 | 100 % | 0.840 to 6.00 | 0.840 to 6.00 |" in text
     assert text.count("| `skyhook` |") == 2 * len(JUDGED) + 2

@@ -5,7 +5,7 @@ import numpy as np
 from ...bags.versions import versions
 from ..case_store import program, text_hash
 from .scenario import ABOVE_BAND, DRIVING, PASSIVE_CURRENT, QUANTITIES, SCENARIOS
-from .table import ALIKE, JUDGED, verdict
+from .table import ALIKE, JUDGED, SURE, verdict
 
 _HASH = 12  # digits
 
@@ -36,8 +36,8 @@ def _verdict(rows):
         "## Gains",
         "",
         "Reduction of each quantity in percent (negative: increase), mean ± half of the 95 % interval by Student's t",
-        "over the seeds, every seed compared with itself; bold where the interval excludes zero. Constant current and",
-        "law are those with the least of that quantity over all seeds; the gain of each seed is that of the choice by",
+        f"over the seeds, every seed compared with itself; a star where {SURE}.",
+        "Constant current and law are those with the least of that quantity over all seeds; the gain of each seed is that of the choice by",
         "all other seeds. Chance is the scatter of the means among constant currents",
         f"from {ALIKE:g} A, whose mounts are nearly alike: tracks amplify the smallest difference, and a gain of",
         "that size has no significance.",

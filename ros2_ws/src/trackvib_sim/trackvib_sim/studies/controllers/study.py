@@ -18,7 +18,7 @@ from ..run_missing import run_shown
 from .picture import controllers_picture
 from .report import report
 from .scenario import PASSIVE, PASSIVE_CURRENT, SCENARIOS, ControlCase, ControlResult, control
-from .table import table_csv, table_rows, verdict
+from .table import SURE, table_csv, table_rows, verdict
 
 GRID = (0.7, 0.8, 0.9, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0)  # A, over which the best constant current is searched
 
@@ -78,15 +78,20 @@ def controllers(classes):
 
 
 def _print(console, rows, folder):
+    verdicts = verdict(rows)
     table = Table("scenario", "quantity", title="gain over passive mounts, %", title_justify="left")
     for name in ("best constant, A", "over 1 A", "best law", "over 1 A", "over best constant", "chance"):
         table.add_column(name, justify="right")
-    for each in verdict(rows):
+    for each in verdicts:
         table.add_row(
             SCENARIOS[each.scenario].title, each.quantity, f"{each.current:g}", each.constant_gain.text(),
             each.law, each.law_gain.text(), each.over_best.text(), f"{each.chance:.1f}",
         )  # fmt: skip
-    console.print(table)
+    if verdicts:
+        console.print(table)
+        console.print(f"* {SURE}")
+    else:
+        console.print("no law to compare with the constant currents; their levels are in controllers.md")
     for row in rows:
         if row.failures:
             console.print(f"{row.scenario}, {row.name}: {'; '.join(row.failures)}", soft_wrap=True)
