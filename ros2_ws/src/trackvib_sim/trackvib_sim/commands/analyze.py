@@ -132,7 +132,7 @@ def _lines(analyses):
         table.add_column(axis, justify="right")
     for analysis in _sections(table, analyses, "lines"):
         for line in analysis.lines:
-            names = (line.name, f"{line.frequency:.1f}")
+            names = (line.name, line.hertz)
             for sensor, axes in line.rms.items():
                 table.add_row(*names, sensor, *map(_told, axes.values()))
                 names = ("", "")

@@ -118,7 +118,7 @@ def lines(analysis):
     rows = [
         (
             line.name,
-            number(line.frequency),
+            line.hertz if line.sweeps else number(line.frequency),
             f"{line.low:.4g} to {line.high:.4g}",
             *(number(line.rms[sensor][axis], 3) for axis in AXES for sensor in SENSORS),
         )
