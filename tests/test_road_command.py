@@ -40,7 +40,7 @@ def test_a_road_is_told_drawn_and_written(tmp_path):
         (["nowhere.csv"], "road 'nowhere.csv' cannot be read: No such file or directory"),
         (["C", "--csv", "road.png"], "name the same file twice"),
         (["C", "--csv", "C"], "name the same file twice"),
-        (["Q"], "accepted are a class (A, B, C, D, E, F, G, H)"),
+        (["Q"], "accepted: a class (A, B, C, D, E, F, G, H)"),
         (["C", "--length", "100", "--out", "/proc/none/x.png"], "/proc/none"),
     ],
 )

@@ -81,7 +81,7 @@ def _read(file, name, units, layouts, optional, most, called):
             numbers.extend([_number(cells[place], delimiter) for place in places])
         except (ValueError, IndexError):
             shown = readable(shortened(line))
-            raise CsvError(f"{name}, line {number}: {shown!r}, accepted are {len(columns)} numbers") from None
+            raise CsvError(f"{name}, line {number}: {shown!r}, accepted: {len(columns)} numbers") from None
         if len(numbers) > most * len(places):
             raise CsvError(f"{name}: more than {most} samples")
     rows = np.frombuffer(numbers).reshape(-1, len(places)).T
@@ -120,4 +120,4 @@ def _columns(columns, name, units, layouts, optional):
     accepted = " or ".join(",".join(f"{each}_UNIT" for each in names) for names in layouts)
     known = list(dict.fromkeys(unit for names in layouts for each in names for unit in units[each]))
     told = ", ".join(readable(shortened(column)) for column in islice(columns, 10))
-    raise CsvError(f"{name} has the columns {told}; accepted are {accepted}, UNIT being one of {', '.join(known)}")
+    raise CsvError(f"{name} has the columns {told}; accepted: {accepted}, UNIT being one of {', '.join(known)}")

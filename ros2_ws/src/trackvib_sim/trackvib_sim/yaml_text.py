@@ -72,7 +72,7 @@ def validated(model, text, name, kinds=None):
 
 def _bounded(text, name, read):
     if len(text) > LARGEST:
-        raise YamlTextError(readable(f"{name}: has {len(text)} characters, accepted are {LARGEST}"))
+        raise YamlTextError(readable(f"{name}: has {len(text)} characters, accepted: {LARGEST}"))
     try:
         _check_events(text)
         return read()
@@ -92,7 +92,7 @@ def _sentence(name, error, kinds, model):
     if error["type"] in ("model_type", "model_attributes_type"):
         return f"{name}: {item or 'the whole file'} is {value}: must be a section with items"
     if error["type"] == "extra_forbidden":
-        return f"{name}: {item} is {value}: unknown item; accepted are {', '.join(_accepted(model, loc))}"
+        return f"{name}: {item} is {value}: unknown item; accepted: {', '.join(_accepted(model, loc))}"
     if error["type"] == "missing":
         return f"{name}: {item} is missing"
     if error["type"] == "value_error":
@@ -126,7 +126,7 @@ def _check_events(text):
         if isinstance(event, yaml.CollectionStartEvent):
             depth += 1
             if depth > DEEPEST:
-                raise yaml.YAMLError(f"nested too deeply, accepted are {DEEPEST} levels")
+                raise yaml.YAMLError(f"nested too deeply, accepted: {DEEPEST} levels")
         elif isinstance(event, yaml.CollectionEndEvent):
             depth -= 1
 
@@ -146,7 +146,7 @@ def _check_node(node):
         for each in node.value:
             _check_node(each)
     elif node is not None and node.tag == "tag:yaml.org,2002:int" and len(node.value) > LONGEST_NUMBER:
-        raise yaml.YAMLError(f"a number of {len(node.value)} characters, accepted are {LONGEST_NUMBER}")
+        raise yaml.YAMLError(f"a number of {len(node.value)} characters, accepted: {LONGEST_NUMBER}")
 
 
 class _Loader(yaml.CSafeLoader):

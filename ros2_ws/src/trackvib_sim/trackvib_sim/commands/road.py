@@ -35,7 +35,7 @@ def run_road(text, seed, length, begin, tread, csv, crg, out):
     length = min(length, max(road.ends - start, SHORTEST_LOOK))
     first, count = round(start / road.spacing), round(length / road.spacing) + 1
     if count > MOST:
-        raise ValueError(f"--length {length:g} m are {count} samples of {road.spacing:g} m, accepted are {MOST}")
+        raise ValueError(f"--length {length:g} m are {count} samples of {road.spacing:g} m, accepted: {MOST}")
     heights = road.heights(first, count)
     distance = road.spacing * np.arange(first, first + count)
     paths = [Path(path) for path in (out, csv, crg) if path is not None]

@@ -6,8 +6,7 @@ from pathlib import Path
 
 from mr_mount_controller.node_base.parameters import ParameterError
 
-from ..analysis.segments import SHORTEST_MEASURING
-from ..analysis.settling import SHORTEST_SETTLING, VEHICLE_BEHIND, settling_time
+from ..analysis.settling import SHORTEST_MEASURING, SHORTEST_SETTLING, VEHICLE_BEHIND, settling_time
 from ..nodes.loop_arguments import CONTROLLER, ROAD, SIMULATOR, loop_parameters
 from ..nodes.node_parameters import full_namespace
 from ..nodes.simulator_parameters import PARAMETERS, physics_rate

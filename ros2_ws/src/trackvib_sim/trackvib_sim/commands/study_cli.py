@@ -8,7 +8,7 @@ import click
 from ..road.classes import CLASSES
 from ..vehicle.drive.limits import FASTEST
 from .endings import INTERRUPTED, fail, say
-from .option_types import FiniteRange, Several, vehicle_option
+from .option_types import FiniteRange, Several, WholeRange, vehicle_option
 
 SCENARIOS = ("e10", "c20", "run_up", "bump")  # those of studies.controllers, which takes long to import
 
@@ -47,8 +47,8 @@ def _out(default, words="Folder of the study; finished runs in it are reused."):
 
 def _speeds(default):
     """The option for the speeds of a study's runs."""
-    kind = Several(FiniteRange(0.0, FASTEST, min_open=True))
-    words = "Speeds in m/s."
+    kind = Several(FiniteRange(0.0, FASTEST, "m/s", min_open=True))
+    words = f"Speeds, {kind.each}."
     return click.option("--speeds", type=kind, default=default, show_default=True, metavar="V,V,...", help=words)
 
 
@@ -64,7 +64,7 @@ def _speeds(default):
 @_speeds("5,10,20")
 @click.option(
     "--seeds",
-    type=click.IntRange(1, 1000),
+    type=WholeRange(1, 1000),
     default=3,
     show_default=True,
     help="Runs per class and speed, each with its own road and track phase.",
@@ -110,7 +110,7 @@ def figures(vehicle, scheduler, out):
 )
 @click.option(
     "--seeds",
-    type=click.IntRange(1, 1000),
+    type=WholeRange(1, 1000),
     default=8,
     show_default=True,
     help="Runs per law and random scenario, each with its own road and track phase.",
@@ -129,7 +129,7 @@ def controllers(laws, scenarios, seeds, vehicle, scheduler, out):
 @study.command()
 @click.option(
     "--generations",
-    type=click.IntRange(1, 100000),
+    type=WholeRange(1, 100000),
     default=None,
     help="Total number of generations of the search, including those already done.  [default: the plan's]",
 )
@@ -160,7 +160,7 @@ def calibrate(generations, plan, without, vehicle, scheduler, out):
 @study.command()
 @click.option(
     "--phases",
-    type=click.IntRange(1, 100),
+    type=WholeRange(1, 100),
     default=4,
     show_default=True,
     help="Runs per case, each with its own phase between the two tracks; variants use half of them.",

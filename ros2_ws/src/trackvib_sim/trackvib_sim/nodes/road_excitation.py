@@ -6,7 +6,7 @@ from mr_mount_controller.node_base.descriptors import descriptor_of
 from mr_mount_controller.node_base.listener import Refused
 from mr_mount_controller.node_base.loop_node import LoopNode, run_node
 from mr_mount_controller.node_base.parameters import Parameter, ParameterError
-from mr_mount_controller.node_base.plain_text import plain_line
+from mr_mount_controller.node_base.plain_text import plain_line, span
 from mr_mount_controller.node_base.qos import LATCHED_QOS, ROAD_QOS
 from mr_mount_controller.node_base.topics import DRIVE_STATE, ROAD_FRAME, ROAD_PROFILE
 from trackvib_msgs.msg import DriveState, RoadProfile
@@ -63,7 +63,7 @@ class RoadExcitationNode(LoopNode):
     def _on_drive(self, drive):
         distance = drive.distance
         if not abs(distance) <= _FARTHEST:  # NaN is not either
-            raise Refused(f"distance is {distance} m, accepted is up to {_FARTHEST:g} m either way")
+            raise Refused(f"distance is {distance} m, accepted: {span(-_FARTHEST, _FARTHEST, 'm')}")
         stamp = (drive.header.stamp.sec, drive.header.stamp.nanosec)
         if stamp <= self._last:  # a new run, or a vehicle that asks again because it still has no road
             self._feeder = RoadFeeder(self._road, self.settings["horizon"])

@@ -57,13 +57,13 @@ def smoothed(heights, spacing):
 
 
 def roughness_index(heights, spacing):
-    """Return the IRI [m/km]: the golden car's suspension motion at 80 km/h over the way, [Sayers1995]."""
+    """Return the IRI [m/km]: the golden car's suspension motion at 80 km/h over the road, [Sayers1995]."""
     if len(heights) * spacing < 2.0 * _SMOOTH:
         return np.nan
     window = max(round(_TYRE_LENGTH / spacing), 1)
     smooth = np.convolve(heights, np.full(window, 1.0 / window), mode="valid")
     slope = np.diff(smooth) / spacing
-    # states: slopes of sprung and unsprung mass's heights, and their rates, per metre of way
+    # states: slopes of sprung and unsprung mass's heights, and their rates, per metre driven
     a = np.array(
         [
             [0.0, 1.0, 0.0, 0.0],

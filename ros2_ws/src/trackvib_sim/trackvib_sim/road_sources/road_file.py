@@ -189,7 +189,7 @@ def road_from_file(path, tread, start=None, reverse=False, repeat=False):
             profile = recorded.profile
         else:
             accepted = f"a class ({', '.join(CLASSES)}), .csv, .crg, .yaml or a bag"
-            raise RoadError(f"road {shortened(str(path))!r} does not exist; accepted are {accepted}")
+            raise RoadError(f"road {shortened(str(path))!r} does not exist; accepted: {accepted}")
     except ProfileError as error:
         raise RoadError(str(error)) from None
     except OSError as error:

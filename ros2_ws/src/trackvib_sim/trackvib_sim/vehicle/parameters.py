@@ -193,7 +193,7 @@ class Vehicle(Section):
                     raise ValueError(f"mounts.{name}: {item} is {value!r}, must be one of {', '.join(known) or 'none'}")
         coils = sum(self.mount_types[mount.type].kind == "mr" for mount in self.mounts.values())
         if coils > MOST_COILS:
-            raise ValueError(f"mounts: {coils} are of kind 'mr', accepted are {MOST_COILS}")
+            raise ValueError(f"mounts: {coils} are of kind 'mr', accepted: {MOST_COILS}")
         held = {mount.body for mount in self.mounts.values()}
         for name, body in bodies.items():
             if body.hinge == "free" and name not in held:
