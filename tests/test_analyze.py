@@ -100,7 +100,7 @@ def test_brackets_in_a_path_are_printed(start_cli, tmp_path, bag):
     bag.rename(tmp_path / "runs[old]" / "drive")
     analyze = start_cli("analyze", "runs[old]/drive", "--out", "new[bold]")
     assert analyze.wait() == 0, analyze.output
-    assert "bag 1: runs[old]/drive: " in analyze.output and "written to new[bold]: " in analyze.output
+    assert "recording 1: runs[old]/drive: " in analyze.output and "written to new[bold]: " in analyze.output
 
 
 @SLOW

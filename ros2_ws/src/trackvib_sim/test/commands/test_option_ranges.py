@@ -30,7 +30,7 @@ def numeric_options():
                 yield pytest.param(words, option, kind, id=" ".join((*words, option.opts[0])))
 
 
-@pytest.mark.parametrize("words, option, kind", numeric_options())
+@pytest.mark.parametrize("words, option, kind", list(numeric_options()))
 def test_help_tells_what_is_accepted(words, option, kind):
     """Both bounds of the type, as plain numbers, and the unit."""
     assert kind.min is not None and kind.max is not None, "a number without bounds"

@@ -18,9 +18,9 @@ def read_causes(recording):
     Without a vehicle file that can be read the pitch is nan and there are no orders.
     """
     try:
-        vehicle = parse_vehicle(recording.vehicle or "", "vehicle description in the bag")
+        vehicle = parse_vehicle(recording.vehicle or "", "vehicle description in the recording")
     except VehicleFileError as error:
-        reason = str(error).splitlines()[0] if recording.vehicle else "no vehicle description in the bag"
+        reason = str(error).splitlines()[0] if recording.vehicle else "no vehicle description in the recording"
         return nan, (), [f"{reason}: no levels of link passing and engine orders"]
     return vehicle.tracks.pitch, vehicle.engine.orders, []
 
@@ -29,10 +29,10 @@ def missing_causes(recording, motion):
     """Return notes on what of a `motion.MeanMotion` is missing, and what cannot be had without."""
     notes = []
     if isnan(motion.speed):
-        where = "in the bag" if recording.odometry is None else "after the settling time"
+        where = "in the recording" if recording.odometry is None else "after the settling time"
         notes.append(f"no odometry {where}: no speed, nothing by speed, no levels of link passing")
     if isnan(motion.engine_speed):
-        notes.append("no engine speed in the bag: no levels of its orders")
+        notes.append("no engine speed in the recording: no levels of its orders")
     return notes
 
 

@@ -23,7 +23,7 @@ from .option_types import FiniteRange, WholeRange
     type=FiniteRange(0.1, 10.0, "m"),
     default=2.8,
     show_default=True,
-    help="Distance between the tracks in m.",
+    help="Distance between the tracks.",
 )
 @click.option(
     "--csv", type=click.Path(dir_okay=False), default=None, help="Write the evaluated heights to this CSV file."

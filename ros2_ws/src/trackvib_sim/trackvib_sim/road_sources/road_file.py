@@ -160,9 +160,11 @@ def find_road(text, tread, seed=1):
     return road_from_file(path, tread)
 
 
-def road_in_words(text):
-    """Return what a road is called, as `find_road` takes it."""
-    return f"class {text}" if text in CLASSES else f"road {Path(text).name}"
+def road_in_words(text, composition=""):
+    """Return what a road is called, as `find_road` takes it, and of a file what it consists of, where that is known."""
+    if text in CLASSES:
+        return f"class {text}"
+    return f"road {Path(text).name}" + (f" ({composition})" if composition else "")
 
 
 def whole_name(text):

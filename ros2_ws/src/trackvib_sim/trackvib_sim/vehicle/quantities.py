@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from mr_mount_controller.node_base.plain_text import span
+from mr_mount_controller.node_base.plain_text import number, span
 from pydantic import AfterValidator, BeforeValidator, Field
 from pydantic_core import core_schema
 
@@ -69,7 +69,7 @@ def _bounded(unit):
             if isinstance(each, list):
                 check(each)
             elif abs(each) > largest:
-                raise ValueError(f"value is {each:g}, must be from {span(-largest, largest, unit)}")
+                raise ValueError(f"value is {number(each)}, must be from {span(-largest, largest, unit)}")
         return value
 
     return AfterValidator(check)

@@ -178,7 +178,7 @@ def _about_histories(analyses, grey):
     """Return what the histories of some bags show, and what is grey there."""
     words = ["Specific force as recorded, +g along z at rest."]
     if any(timing.samples > MOST for analysis in analyses for timing in _of_sensors(analysis)):
-        words.append("For long bags the least and the greatest value of each part are drawn.")
+        words.append("For long recordings the least and the greatest value of each part are drawn.")
     return " ".join([*words, f"Grey: {grey}."])
 
 
