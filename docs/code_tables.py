@@ -7,6 +7,7 @@ from importlib.metadata import entry_points, requires
 import mr_mount_controller.laws
 import numpy as np
 import trackvib_sim.rui
+from file_tables import TABLES as FILE_TABLES
 from message_tables import TABLES as MESSAGE_TABLES
 from mr_mount_controller.laws import find_law, shipped_laws
 from mr_mount_controller.mount import HIGHEST_CURRENT, LOWEST_CURRENT, PUBLISHED
@@ -113,6 +114,7 @@ TABLES = {
     "parameters of player": node_parameters(PLAYER),
     "laws": laws,
     "mount": mount,
+    **FILE_TABLES,
     **MESSAGE_TABLES,
     **VEHICLE_TABLES,
 }

@@ -33,7 +33,9 @@ def roads(tmp_path_factory):
 
 def test_roads_are_called_what_they_are(roads):
     """Of a file ground and obstacles, of a class its letter."""
-    assert {name: composition(road) for name, road in roads.items()} == {name: words for name, (_, words) in FILES.items()}
+    assert {name: composition(road) for name, road in roads.items()} == {
+        name: words for name, (_, words) in FILES.items()
+    }
     assert composition(find_road("D", 2.8)) == "class D of ISO 8608"
     assert road_in_words("a/b.yaml", "level ground") == "road b.yaml (level ground)" and road_in_words("D") == "class D"
 

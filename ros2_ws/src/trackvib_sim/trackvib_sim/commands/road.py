@@ -53,7 +53,7 @@ def run_road(text, seed, length, begin, tread, csv, crg, out):
     console = Terminal()
     name = road_in_words(text, composition(road))
     console.print(_table(heights, road, f"{name}, {distance[0]:g} to {distance[-1]:g} m"))
-    if (sentence := before(road)):
+    if sentence := before(road):
         console.print(sentence, soft_wrap=True)
     ground = getattr(road, "ground", road)  # under obstacles
     taken = "interpolated linearly, " if isinstance(ground, ProfileRoad) and not ground.even else ""

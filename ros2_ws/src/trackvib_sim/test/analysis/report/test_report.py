@@ -102,7 +102,12 @@ def test_report_of_sensors_alone(report):
     """A bag without mounts, answers, odometry, parameters and vehicle is reported, and says what it lacks."""
     lacking = dict.fromkeys(("mounts", "answers", "odometry", "vehicle"))
     words = _words(report(made_recording(np.arange(1, 4001))._replace(**lacking, provenance={})))
-    for absent in ("no odometry in the recording", "no mount_state in the recording", "no coil_current in the recording", "unknown"):
+    for absent in (
+        "no odometry in the recording",
+        "no mount_state in the recording",
+        "no coil_current in the recording",
+        "unknown",
+    ):
         assert absent in words
     assert "Numbers" in words and "force over deflection" not in words
     assert "bag, 4 s" in words and not re.search(r"\bnan\b|unanswered", words)

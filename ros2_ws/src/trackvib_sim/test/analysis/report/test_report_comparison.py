@@ -121,7 +121,16 @@ def test_comparison_has_all_that_a_report_on_one_bag_has(whole):
     found = build_report_data(whole, analyse(whole))
     sections = {section.title: section for section in of_several([found, found], NAMES)}
     heads = [table.head[0] for table in sections["Numbers"].tables]
-    for words in ("RMS, raw", "crest factor", "greatest RMS over 1 s", "vibration dose value", "peak", "mean", "left mount", "right mount"):
+    for words in (
+        "RMS, raw",
+        "crest factor",
+        "greatest RMS over 1 s",
+        "vibration dose value",
+        "peak",
+        "mean",
+        "left mount",
+        "right mount",
+    ):
         assert any(head.startswith(words) for head in heads), words
     lines = [table.head[0] for table in sections["Link passing and engine orders"].tables]
     assert lines == [line.name for line in found.analysis.lines] and len(lines) == 6

@@ -75,7 +75,10 @@ def _road_parameters(report_data):
     road = known.get("road", known.get("road_class"))  # in bags of before
     if road is None:
         return {}
-    return {"road": road_in_words(road, known.get("consists_of", "")), **({"seed": known["seed"]} if road in CLASSES and "seed" in known else {})}
+    return {
+        "road": road_in_words(road, known.get("consists_of", "")),
+        **({"seed": known["seed"]} if road in CLASSES and "seed" in known else {}),
+    }
 
 
 def _speed(report_data):
