@@ -91,7 +91,7 @@ BAD = [
     (MASS, MASS.replace("9000.0", ".inf"), ("bodies.turret.mass is inf", "finite")),
     (MASS, MASS.replace("9000.0", "1e+300"), ("bodies.turret.mass", "value is 1e300", "-1e12 to 1e12 kg")),
     ("centre: {value: [-0.15, 0.0, 0.35]", "centre: {value: [0, 2000.0, 0]",
-     ("bodies.turret.centre", "2000", "1000 m")),
+     ("bodies.turret.centre", "2000", "-20 to 20 m")),
     (MASS, MASS.replace("9000.0", "heavy"), ("bodies.turret.mass is 'heavy'", "number")),
     (MASS, MASS.replace("9000.0", "true"), ("bodies.turret.mass", "value is True", "must be a number")),
     (MASS, MASS.replace("9000.0", "[1.0]"), ("bodies.turret.mass is [1.0]", "number")),

@@ -1,8 +1,10 @@
 """The vehicle's parameters: what a vehicle file must hold."""
 
+from math import sqrt
 from typing import Annotated, Literal
 
 from mr_mount_controller.mounting import MOST_COILS, MOST_MOUNTS
+from mr_mount_controller.node_base.plain_text import number
 from pydantic import Field, model_validator
 
 from .body_parameters import HULL, AnyBodyParameters
@@ -150,6 +152,19 @@ class Vehicle(Section):
             for sensor in (CHASSIS, POWERTRAIN):
                 if sensor not in self.sensors:
                     raise ValueError(f"sensors.{sensor}: must be given, for no mount carries the powertrain")
+        return self
+
+    @model_validator(mode="after")
+    def _bodies_within_reach(self):
+        """A radius of gyration is at most half of a body's length; none is twice as long as its tracks."""
+        longest = abs(self.sprockets.x - self.idlers.x)
+        for name, body in ((HULL, self.hull), *self.bodies.items(), (POWERTRAIN, self.powertrain)):
+            gyration = sqrt(max(body.inertia) / body.mass)
+            if gyration > longest:
+                raise ValueError(
+                    f"{name}: mass is {number(body.mass)} kg and inertia {body.inertia} kg m^2, a radius of gyration "
+                    f"of {gyration:.3g} m, must be at most {longest:.3g} m, the distance from sprockets to idlers"
+                )
         return self
 
     @model_validator(mode="after")

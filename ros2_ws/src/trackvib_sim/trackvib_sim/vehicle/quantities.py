@@ -11,7 +11,7 @@ SOURCES = ("published", "literature", "assumed", "calibrated")
 KEYS = {"value", "unit", "source", "note"}
 # beyond these, squares and differences of a vehicle's numbers lose their digits
 LARGEST = 1e12
-LARGEST_LENGTH = 1e3  # m
+LARGEST_LENGTH = 20.0  # m; the longest tank has 16: what is more was most likely written in millimetres
 
 
 @dataclass(frozen=True)

@@ -105,7 +105,7 @@ class TracksParameters(Section):
 
     links: by_side("-", ge=float(FEWEST_LINKS), le=float(MOST_LINKS), multiple_of=1.0)
     """Number of links of a track."""
-    pitch: Length
+    pitch: scalar("m", ge=0.03, le=0.5)
     """Distance between the pins of a link."""
     shoe_mass: Mass
     """Mass of a link with its pin and pad."""

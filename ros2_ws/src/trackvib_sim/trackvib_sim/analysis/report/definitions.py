@@ -1,4 +1,4 @@
-"""What the numbers of a report mean: each word that the page uses, with the standard, clause and equation it is from."""
+"""What the numbers of a report mean: each word of the page, with standard, clause and equation."""
 
 from ..absorbed_power import RIDE_LIMIT
 from ..lines import HARMONICS
@@ -17,7 +17,8 @@ _ROWS = (
      f"{_ISO}, 6.1, (1)"),
     ("crest factor", "greatest absolute weighted value over the weighted RMS; above 9 MTVV and VDV count as well",
      f"{_ISO}, 6.2"),
-    ("MTVV", "maximum transient vibration value: the greatest weighted RMS over any 1 s", f"{_ISO}, 6.3.1, (2) and (4)"),
+    ("MTVV", "maximum transient vibration value: the greatest weighted RMS over any 1 s",
+     f"{_ISO}, 6.3.1, (2) and (4)"),
     ("VDV", "vibration dose value: (∫ a_w(t)⁴ dt)^¼; it stresses shocks and grows with the time",
      f"{_ISO}, 6.3.2, (5)"),
     ("all axes", "root of the sum of the squares of the three weighted RMS values", f"{_ISO}, 6.5"),
@@ -27,11 +28,10 @@ _ROWS = (
      "Welch's method, Hann windows of 1 s"),
     ("transmissibility, |H1|", "amplitude at the powertrain over that at the chassis, of what is coherent", ""),
     ("coherence", "share of the powertrain's motion that goes linearly with the chassis; 1 is all, 0 none", ""),
-    ("link passing, v/p", "links enter the sprocket v/p times a second: speed over the pitch of the track; with multiples "
-     f"up to {HARMONICS} v/p", ""),
+    ("link passing, v/p", "links enter the sprocket v/p times a second: speed over the pitch of the track; with "
+     f"multiples up to {HARMONICS} v/p", ""),
     ("engine order m", "m times the revolutions of the crankshaft per second", ""),
-    ("Campbell diagram", "spectra by speed: lines that move with the speed rise from left to right, resonances stay level",
-     ""),
+    ("Campbell diagram", "spectra by speed: what follows the speed rises from left to right, resonances are level", ""),
     ("travel, deflection", "deflection of a mount from its unloaded length; travel is deflection about its mean", ""),
     ("settling", "time from the start that does not count", ""),
 )  # fmt: skip
