@@ -24,7 +24,7 @@ def stood(simulation, level):
 
 
 @pytest.fixture(scope="module")
-def standing(stood, moved, added):
+def standing_loads(stood, moved, added):
     """Forces (2, links, 3) of the ground on the nodes, their places, and what the tracks put on the bodies."""
     standing, _ = stood
     system, state = standing.system, standing.state
@@ -41,9 +41,9 @@ def standing(stood, moved, added):
 
 
 @pytest.mark.analytic
-def test_ground_carries_the_weight_of_all(vehicle, table, standing):
+def test_ground_carries_the_weight_of_all(vehicle, table, standing_loads):
     """The ground's forces on the shoes push, balance, and add up to the weight of bodies and shoes, left as right."""
-    ground, _, _ = standing
+    ground, _, _ = standing_loads
     t = vehicle.tracks
     weight = (sum(body.mass for body in table) + sum(t.links) * t.shoe_mass) * GRAVITY
     assert ground[..., 2].min() == 0.0
@@ -53,18 +53,18 @@ def test_ground_carries_the_weight_of_all(vehicle, table, standing):
 
 
 @pytest.mark.analytic
-def test_tracks_carry_the_bodies(table, standing):
+def test_tracks_carry_the_bodies(table, standing_loads):
     """What the tracks put on wheels, rollers, idlers, sprockets and hull adds up to the weight of the bodies."""
-    _, _, loads = standing
+    _, _, loads = standing_loads
     weight = sum(body.mass for body in table) * GRAVITY
     assert_allclose(loads.force.sum(0), (0.0, 0.0, weight), rtol=0, atol=1e-3 * weight)
 
 
 @pytest.mark.analytic
-def test_ground_balances_the_centre_of_mass(vehicle, table, stood, standing, moved):
+def test_ground_balances_the_centre_of_mass(vehicle, table, stood, standing_loads, moved):
     """The ground's forces have the moment of the weight of all bodies and shoes about the global axes."""
     standing, _ = stood
-    ground, place, _ = standing
+    ground, place, _ = standing_loads
     motion = moved(standing.system.tree, standing.state.tree)
     row = standing.system.tree.row
     origin, turn = (
