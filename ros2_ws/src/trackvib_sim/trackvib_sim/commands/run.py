@@ -12,10 +12,8 @@ from ..bags.errors import BagError
 from ..console import Description, Terminal
 from ..nodes.loop_arguments import RECORDER, SIMULATOR
 from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses
-from ..vehicle.equilibrium import NoEquilibrium
 from ..vehicle.plausibility import doubts
 from ..vehicle.step_size import recommended_rate
-from ..vehicle.tracks.layout import TrackDoesNotFit
 from .own_domain import own_domain
 from .result_folder import CommandError, make_folder, writing_to
 from .run_choices import choose
@@ -61,7 +59,7 @@ def _doubts(vehicle):
     """Return what is not plausible in a vehicle; of one that cannot stand why, which the simulator judges."""
     try:
         return doubts(vehicle)
-    except (NoEquilibrium, TrackDoesNotFit) as error:
+    except ValueError as error:
         return [str(error)]
 
 

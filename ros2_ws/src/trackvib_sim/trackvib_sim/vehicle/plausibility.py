@@ -1,6 +1,7 @@
 """What of a vehicle is possible but not plausible, in sentences: most likely a wrong unit or a slip of the pen.
 
-What no vehicle can have is refused where its file is read (`parameters`, `quantities`, `sections`).
+What no vehicle can have is refused where its file is read (`parameters`, `quantities`) or its bodies are tied together
+(`rui.table`).
 """
 
 import numpy as np
@@ -35,6 +36,8 @@ def doubts(vehicle):
         It cannot stand.
     TrackDoesNotFit
         The links do not close round the running gear.
+    ValueError
+        A body has moments of inertia that none can have.
     """
     return [sentence for sentence, good in _judged(vehicle) if not good]
 

@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import model_validator
 
 from .quantities import one_or_many, scalar, vector, words
-from .sections import Gain, Length, Mass, RigidBodyParameters, Section, check_solid
+from .sections import Gain, Length, Mass, RigidBodyParameters, Section
 
 MOST_STATIONS = 12
 MOST_ROLLERS = 12
@@ -105,12 +105,6 @@ class RoadWheelsParameters(Section):
     """Distance of its middle from the middle of the vehicle."""
     bearing_damping: Gain("N m s/rad")
     """Damping of the bearing."""
-
-    @model_validator(mode="after")
-    def _solid(self):
-        if self.inertia is not None:
-            check_solid(self.inertia)
-        return self
 
 
 class EndWheelsParameters(RoadWheelsParameters):

@@ -2,12 +2,10 @@
 
 from typing import Annotated
 
-import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field
 
 from .quantities import scalar, vector
 
-ROUNDED = 0.01  # by which moments of inertia may be rounded
 Mass = scalar("kg", gt=0.0)
 Length = scalar("m", gt=0.0)
 Place = vector("m", 3)
@@ -26,20 +24,6 @@ class Section(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
 
 
-def check_solid(inertia, products=(0.0, 0.0, 0.0)):
-    """Raise `ValueError` for moments and products of inertia [kg m^2] that no rigid body has.
-
-    Of the principal moments the greatest is at most the sum of the other two, which a thin plate reaches.
-    """
-    xy, xz, yz = products
-    least, middle, greatest = np.linalg.eigvalsh(np.diag(inertia) + [[0.0, xy, xz], [xy, 0.0, yz], [xz, yz, 0.0]])
-    if least <= 0.0 or greatest > (1.0 + ROUNDED) * (least + middle):
-        raise ValueError(
-            f"inertia is {inertia} kg m^2, which no rigid body has: its principal moments are {least:.4g}, "
-            f"{middle:.4g} and {greatest:.4g}, all must be above 0 and the greatest at most the sum of the others"
-        )
-
-
 class RigidBodyParameters(Section):
     """A rigid body: mass, centre from its origin, inertia about the centre (diagonal; products as matrix elements)."""
 
@@ -51,11 +35,6 @@ class RigidBodyParameters(Section):
     """Moments of inertia about x, y and z through the centre of mass."""
     products: Products
     """Products of inertia xy, xz and yz, as elements of the inertia matrix."""
-
-    @model_validator(mode="after")
-    def _solid(self):
-        check_solid(self.inertia, self.products)
-        return self
 
 
 def increasing(name, pair):
