@@ -7,10 +7,12 @@ from importlib.metadata import entry_points, requires
 import mr_mount_controller.laws
 import numpy as np
 import trackvib_sim.rui
+from file_tables import TABLES as FILE_TABLES
 from message_tables import TABLES as MESSAGE_TABLES
 from mr_mount_controller.laws import find_law, shipped_laws
 from mr_mount_controller.mount import HIGHEST_CURRENT, LOWEST_CURRENT, PUBLISHED
 from mr_mount_controller.node import PARAMETERS as CONTROLLER
+from mr_mount_controller.node_base.plain_text import span
 from mr_mount_controller.node_base.topics import TOPICS
 from trackvib_sim.nodes.player import PARAMETERS as PLAYER
 from trackvib_sim.nodes.recorder_parameters import PARAMETERS as RECORDER
@@ -88,7 +90,7 @@ def _parameter(each):
     choices = ("false", "true") if isinstance(each.default, bool) else each.choices
     accepted = ", ".join(f"`{choice}`" for choice in choices)
     if each.low is not None:
-        accepted = f"{each.low:g} to {each.high:g} {each.unit}".rstrip()
+        accepted = span(each.low, each.high, each.unit)
     return f"`{each.name}`", _default(each.default), accepted, each.description
 
 
@@ -112,6 +114,7 @@ TABLES = {
     "parameters of player": node_parameters(PLAYER),
     "laws": laws,
     "mount": mount,
+    **FILE_TABLES,
     **MESSAGE_TABLES,
     **VEHICLE_TABLES,
 }

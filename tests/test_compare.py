@@ -72,11 +72,11 @@ def test_any_names_on_analyze(start_cli, tmp_path):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (["--rotate", "1,2"], "'1,2', accepted is ROLL,PITCH,YAW"),
-        (["--rotate", "nan,0,0"], "accepted is ROLL,PITCH,YAW"),
-        (["--sensor", "seat"], "'seat', accepted is NAME=TOPIC"),
+        (["--rotate", "1,2"], "'1,2', accepted: ROLL,PITCH,YAW"),
+        (["--rotate", "nan,0,0"], "accepted: ROLL,PITCH,YAW"),
+        (["--sensor", "seat"], "'seat', accepted: NAME=TOPIC"),
         (["--sensor", "chassis=/a", "--chassis", "/b"], "'chassis' is given twice"),
-        (["--csv", "time_s"], "'time_s', accepted is COLUMN_UNIT=NAME"),
+        (["--csv", "time_s"], "'time_s', accepted: COLUMN_UNIT=NAME"),
         (["--chassis", "/a", "--powertrain", "/a"], "'/a' is given for two sensors"),
     ],
 )

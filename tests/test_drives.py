@@ -109,7 +109,7 @@ def test_the_road_follows_the_distance_along_the_path(start_node, observer):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("points: [{at: 0, speed: 99}]", "speed is 99.0 m/s, accepted is -25 to 25 m/s"),
+        ("points: [{at: 0, speed: 99}]", "speed is 99.0 m/s, accepted: -25 to 25 m/s"),
         ("points: [{at: 0, speed: 5, engine_speed: 9000}]", "engine_speed in the drive file is 9000"),
         ("points: [{at: 1, speed: 5}, {at: 0, speed: 5}]", "point 2: at is 0, must be above 1"),
         ("points: [{at: 0, speed: 1}]", "must be at least"),

@@ -143,7 +143,7 @@ def test_fmpy_drives_it_as_the_process_does(fmpy, tmp_path):
     [
         (["--out", "vehicle.zip"], "--out is 'vehicle.zip', must end in .fmu"),
         (["--out", "nowhere/vehicle.fmu"], "cannot be written"),
-        (["--road", "Z"], "accepted are a class"),
+        (["--road", "Z"], "accepted: a class"),
         (["--vehicle", "nobody"], "vehicles known by name are"),
         (["--speed", "99"], "is not in the range"),
         (["--physics-rate", "1500"], "conflict"),

@@ -34,7 +34,7 @@ def test_shakes_a_mount_and_fits_its_loops(start_cli, tmp_path):
     ("arguments", "words"),
     [
         (("--mount", "roof"), "not one of left, right"),
-        (("--currents", "7"), "accepted are 0 to 4 A"),
+        (("--currents", "7"), "accepted: 0 to 4 A"),
         (("--vehicle", "m113"), "has no mounts"),
         (("--amplitudes", "0"), "0"),
         (("fit", "nowhere.csv"), "nowhere.csv"),

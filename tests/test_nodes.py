@@ -92,7 +92,7 @@ def test_bad_argument_is_refused_in_one_line(start_node, name, arguments, words)
     node = start_node(name, *arguments)
     assert node.wait() == 2
     (line,) = node.output.splitlines()
-    assert line.startswith("error: ") and words in line and "accepted are --ros-args" in line
+    assert line.startswith("error: ") and words in line and "accepted: --ros-args" in line
 
 
 @SLOW

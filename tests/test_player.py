@@ -147,9 +147,9 @@ def test_a_killed_player_leaves_the_bag_as_it_was(start_node, observer, bag):
     ("given", "code", "words"),
     [
         ({"bag": "/nowhere"}, 1, "bag '/nowhere' does not exist"),
-        ({"start": 99.0}, 2, "parameter 'start' is 99.0 s, accepted is 0 to 3.2 s in this bag"),
+        ({"start": 99.0}, 2, "parameter 'start' is 99.0 s, accepted: 0 to 3.2 s in this bag"),
         ({"start": 2.0, "end": 1.0}, 2, "parameter 'end' is 1.0 s"),
-        ({"rate": 0.0}, 2, "parameter 'rate' is 0.0, accepted is a number from 0.01 to 100"),
+        ({"rate": 0.0}, 2, "parameter 'rate' is 0.0, accepted: a number from 0.01 to 100"),
         ({"topics": '["chassis/gps"]'}, 2, "no topic 'chassis/gps', it has /chassis/imu, /clock"),
         ({"rat": 1.0}, 2, "unknown parameter 'rat'"),
         ({"bag": "''"}, 2, "parameter 'bag' is empty"),

@@ -108,7 +108,7 @@ def told(name, key, value):
         (told("parameters of /simulator", "pace", "realtime"), "pace is 'realtime'"),
         (
             told("parameters of /simulator", "physics_rate", "10"),
-            "'physics_rate' is 10, accepted is 0 or at least 1000 Hz",
+            "'physics_rate' is 10, accepted: 0 or at least 1000 Hz",
         ),
         ({"provenance": lambda name, values: None}, "does not hold the parameters of its simulator"),
         ({"message": lambda at, data: data[:30] if at == "/vehicle_description" else data}, "cannot be read"),

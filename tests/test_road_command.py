@@ -25,7 +25,9 @@ def test_a_road_is_told_drawn_and_written(tmp_path):
     (tmp_path / "mine.yaml").write_text(ROAD)
     files = ["--csv", tmp_path / "out.csv", "--crg", tmp_path / "out.crg", "--out", tmp_path / "out.png"]
     told = trackvib("road", tmp_path / "mine.yaml", "--length", 100, "--begin", 0, *files)
-    assert "road mine.yaml, 0 to 100 m" in told and "left" in told and "right" in told
+    assert (
+        "road mine.yaml (class C of ISO 8608, with 1 V-ramp), 0 to 100 m" in told and "left" in told and "right" in told
+    )
     assert (tmp_path / "out.png").read_bytes().startswith(b"\x89PNG")
     heights = find_road(str(tmp_path / "mine.yaml"), 2.8).heights(0, 2001)
     np.testing.assert_array_equal(read_csv_profile(tmp_path / "out.csv").heights, heights)
@@ -40,7 +42,7 @@ def test_a_road_is_told_drawn_and_written(tmp_path):
         (["nowhere.csv"], "road 'nowhere.csv' cannot be read: No such file or directory"),
         (["C", "--csv", "road.png"], "name the same file twice"),
         (["C", "--csv", "C"], "name the same file twice"),
-        (["Q"], "accepted are a class (A, B, C, D, E, F, G, H)"),
+        (["Q"], "accepted: a class (A, B, C, D, E, F, G, H)"),
         (["C", "--length", "100", "--out", "/proc/none/x.png"], "/proc/none"),
     ],
 )

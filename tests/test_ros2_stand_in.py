@@ -90,8 +90,8 @@ def test_changes_and_fixed_parameters(loop, ros2):
     assert ros2(["param", "set", "/controller", "firm_current", "2"]) == "Set parameter successful\n"
     assert ros2(["param", "get", "/controller", "firm_current"]) == "Double value is: 2.0\n"
     for node, name, value, reason in (
-        ("/controller", "firm_current", "9", "'firm_current' is 9.0, accepted is a number from 0.7 to 4 A"),
-        ("/controller", "soft_current", "2.5", "accepted is at most firm_current, 2 A"),
+        ("/controller", "firm_current", "9", "'firm_current' is 9.0, accepted: a number from 0.7 to 4 A"),
+        ("/controller", "soft_current", "2.5", "accepted: at most firm_current, 2 A"),
         ("/controller", "law", "hybrid", "'law' is fixed while the node runs"),
         ("/simulator", "speed", "5", "'speed' is fixed while the node runs"),
     ):
@@ -175,7 +175,7 @@ def test_launch_says_what_it_lacks(ros2, tmp_path):
     ("words", "said"),
     [
         (["topic", "echo", "/x", "--bogus"], "unrecognized arguments: --bogus"),
-        (["topic", "hz", "/x", "--window", "0"], "'0', accepted is a whole number from 1 on"),
+        (["topic", "hz", "/x", "--window", "0"], "'0', accepted: a whole number from 1 on"),
         (["topic", "fly"], "invalid choice: 'fly'"),
         (["service", "call", "/x", "std_srvs/srv/SetBool", "{nope: 1}"], "SetBool_Request has no 'nope'"),
         (["service", "call", "/x", "std_srvs/srv/SetBool", "{data: 3}"], "data is 3"),

@@ -208,7 +208,7 @@ def test_a_worker_without_the_package_is_named(table1, start, scheduler, env):
         (("--speeds", "5,0"), ("--speeds", "0", "0.0<x<=25.0")),
         (("--speeds", "nan"), ("--speeds", "nan", "0.0<x<=25.0")),
         (("--speeds", "5;10"), ("--speeds", "5;10", "not a valid float")),
-        (("--seeds", "0"), ("--seeds", "0", "1<=x<=1000")),
+        (("--seeds", "0"), ("--seeds", "0", "1 to 1000")),
         (("--vehicle", "none.yaml"), ("error: vehicle file 'none.yaml' cannot be read",)),
         (("--scheduler", "nonsense"), ("error: no Dask scheduler answers at 'nonsense'", "tcp://host:8786")),
         (("--out", "/proc/none"), ("error:", "/proc/none")),

@@ -38,7 +38,7 @@ def test_leaves_table_report_and_picture(controllers, tmp_path):
         (("--laws", "skyhok"), ("error:", "'skyhok'", "acceleration_driven", "package.module:Class")),
         (("--laws", "nowhere:Law"), ("error:", "'nowhere:Law'", "cannot be loaded")),
         (("--scenarios", "e10,moon"), ("--scenarios", "'moon'", "'e10', 'c20', 'run_up', 'bump'")),
-        (("--seeds", "0"), ("--seeds", "0", "1<=x<=1000")),
+        (("--seeds", "0"), ("--seeds", "0", "1 to 1000")),
         (("--vehicle", "none.yaml"), ("error: vehicle file 'none.yaml' cannot be read",)),
         (("--scheduler", "tcp://127.0.0.1:1"), ("error: no Dask scheduler answers at 'tcp://127.0.0.1:1'",)),
     ],

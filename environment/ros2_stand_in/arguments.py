@@ -160,7 +160,7 @@ def _service(verbs):
 
 def _count(text):
     if not text.isdecimal() or int(text) == 0:
-        raise argparse.ArgumentTypeError(f"{text!r}, accepted is a whole number from 1 on")
+        raise argparse.ArgumentTypeError(f"{text!r}, accepted: a whole number from 1 on")
     return int(text)
 
 
@@ -178,5 +178,5 @@ def _number(text, low):
     except ValueError:
         number = -1.0
     if not low <= number <= 1e6:
-        raise argparse.ArgumentTypeError(f"{text!r}, accepted is a number from {low:g} to 1e+06")
+        raise argparse.ArgumentTypeError(f"{text!r}, accepted: a number from {low:g} to 1000000")
     return number

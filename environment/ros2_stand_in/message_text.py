@@ -74,7 +74,7 @@ def fill(message, values):
     """Set fields of a message by a mapping of names to values; raises `Failure`."""
     fields = message.get_fields_and_field_types()
     if not isinstance(values, dict):
-        raise Failure(f"Failed to populate field: {values!r} for {type(message).__name__}, accepted is a mapping")
+        raise Failure(f"Failed to populate field: {values!r} for {type(message).__name__}, accepted: a mapping")
     for name, value in values.items():
         if name not in fields:
             known = ", ".join(fields) or "none"
@@ -82,7 +82,7 @@ def fill(message, values):
         try:
             setattr(message, name, _fitting(getattr(message, name), value, fields[name]))
         except (AssertionError, TypeError, ValueError, OverflowError) as error:
-            reason = " ".join(str(error).split()) or f"accepted is {fields[name]}"
+            reason = " ".join(str(error).split()) or f"accepted: {fields[name]}"
             raise Failure(f"Failed to populate field: {name} is {value!r}: {reason}") from None
 
 

@@ -40,7 +40,7 @@ class DeclareLaunchArgument(Action):
             values[self.name] = context.perform_substitution(self.default_value)
         if self.choices and values[self.name] not in self.choices:
             raise LaunchError(
-                f"launch argument '{self.name}' is {values[self.name]!r}, accepted is one of {', '.join(self.choices)}"
+                f"launch argument '{self.name}' is {values[self.name]!r}, accepted: one of {', '.join(self.choices)}"
             )
 
 

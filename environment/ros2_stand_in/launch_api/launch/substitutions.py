@@ -72,5 +72,5 @@ def truth(text):
     """Return whether a text says true; raises `LaunchError` if it says neither."""
     words = {"true": True, "1": True, "false": False, "0": False}
     if (word := text.strip().lower()) not in words:
-        raise LaunchError(f"a condition is {text!r}, accepted is one of {', '.join(words)}")
+        raise LaunchError(f"a condition is {text!r}, accepted: one of {', '.join(words)}")
     return words[word]

@@ -5,6 +5,7 @@ from math import isfinite, pi, sqrt
 from typing import NamedTuple
 
 from .mount import PUBLISHED, MountCurve
+from .node_base.plain_text import number
 
 MOST_COILS, MOST_MOUNTS = 16, 32  # that a message can carry
 _LONGEST_NAME = 64
@@ -131,7 +132,7 @@ def described(message):
         It makes no sense; the message says what is wrong and what is accepted.
     """
     if len(message.mounts) > MOST_MOUNTS:
-        raise ValueError(f"{len(message.mounts)} mounts are described, accepted are at most {MOST_MOUNTS}")
+        raise ValueError(f"{len(message.mounts)} mounts are described, accepted: at most {MOST_MOUNTS}")
     told = {}
     if hasattr(message, "carried"):  # not in messages of former versions; all zero where a simulator does not tell
         if message.carried.powertrain_mass:
@@ -142,7 +143,7 @@ def described(message):
     if len(set(mounting.names)) < len(mounting.mounts):
         raise ValueError(f"mount names are {', '.join(mounting.names)}, must be unique")
     if mounting.coils > MOST_COILS:
-        raise ValueError(f"{mounting.coils} magnetorheological mounts are described, accepted are {MOST_COILS}")
+        raise ValueError(f"{mounting.coils} magnetorheological mounts are described, accepted: {MOST_COILS}")
     kinds = [mount.kind for mount in mounting.mounts]
     if kinds != sorted(kinds):
         raise ValueError("a rubber mount is described before a magnetorheological one, must be after it")
@@ -154,9 +155,9 @@ def _carried(message):
     for name, value in values.items():
         numbers = [float(number) for number in value] if name in ("centre", "sensor") else [float(value)]
         if not all(isfinite(number) and abs(number) <= _LARGEST for number in numbers):
-            raise ValueError(f"carried.{name} is {value}, accepted is up to {_LARGEST:g}")
+            raise ValueError(f"carried.{name} is {value}, accepted: up to {number(_LARGEST)}")
         if name in _POSITIVE and not numbers[0] > 0.0:
-            raise ValueError(f"carried.{name} is {value}, accepted is more than 0")
+            raise ValueError(f"carried.{name} is {value}, accepted: more than 0")
         values[name] = tuple(numbers) if len(numbers) > 1 else numbers[0]
     return Carried(**values)
 
@@ -167,21 +168,21 @@ def _curve(message):
     rest = message.carried_mass, message.rubber_damping_ratio, lowest, highest, message.coil_lag
     curve = MountCurve(*fits, *map(float, rest))
     if not all(isfinite(number) and abs(number) <= _LARGEST for number in (*fits[0], *fits[1], *curve[2:])):
-        raise ValueError(f"curve is {curve}, accepted are numbers up to {_LARGEST:g}")
+        raise ValueError(f"curve is {curve}, accepted: numbers up to {number(_LARGEST)}")
     if not (0.0 <= lowest < highest <= _LARGEST_CURRENT and curve.carried_mass > 0.0 and curve.coil_lag >= 0.0):
-        raise ValueError(f"curve has the currents {lowest:g} to {highest:g} A, accepted are 0 to {_LARGEST_CURRENT:g}")
+        raise ValueError(f"curve has the currents {lowest:g} to {highest:g} A, accepted: 0 to {_LARGEST_CURRENT:g}")
     if not all(curve.stiffness(highest * n / _CHECKED) > 0.0 for n in range(_CHECKED + 1)):
-        raise ValueError(f"curve has no stiffness somewhere up to {highest:g} A, accepted is more than 0")
+        raise ValueError(f"curve has no stiffness somewhere up to {highest:g} A, accepted: more than 0")
     return curve
 
 
 def _mount(message):
     name, place = message.name, (message.place.x, message.place.y, message.place.z)
     if not (0 < len(name) <= _LONGEST_NAME and name.isprintable()):
-        raise ValueError(f"a mount is called {name[:_LONGEST_NAME]!r}, accepted are 1 to {_LONGEST_NAME} characters")
+        raise ValueError(f"a mount is called {name[:_LONGEST_NAME]!r}, accepted: 1 to {_LONGEST_NAME} characters")
     if message.kind not in list(Kind):
         accepted = ", ".join(f"{kind} ({kind.name})" for kind in Kind)
-        raise ValueError(f"mount {name} is of kind {message.kind}, accepted are {accepted}")
+        raise ValueError(f"mount {name} is of kind {message.kind}, accepted: {accepted}")
     if not all(isfinite(part) and abs(part) <= _FARTHEST for part in place):
-        raise ValueError(f"mount {name} is at {place} m, accepted is up to {_FARTHEST:g} m each way")
+        raise ValueError(f"mount {name} is at {place} m, accepted: up to {_FARTHEST:g} m each way")
     return Mount(name, Kind(message.kind), place)

@@ -84,7 +84,7 @@ def test_skyhook_keeps_the_estimated_motion():
 def test_what_does_not_go_together_is_refused():
     """The law that runs is left as it is, whatever the new one raises."""
     law = find_law("skyhook")(PERIOD, firm_current=2.0)
-    with pytest.raises(ParameterError, match="accepted is at most firm_current, 2 A"):
+    with pytest.raises(ParameterError, match="accepted: at most firm_current, 2 A"):
         changed_law(law, {"soft_current": 2.5})
     assert law.soft_current == 0.8
     with pytest.raises(ParameterError, match="Counting cannot take .*ZeroDivisionError: half"):

@@ -108,7 +108,7 @@ def test_any_samples_give_currents_that_mounts_can_use(name, period, samples):
 @pytest.mark.parametrize("name", [name for name in shipped_laws() if name != "passive"])
 def test_soft_is_not_firmer_than_firm(name):
     """Currents the wrong way round are refused with both."""
-    with pytest.raises(ParameterError, match=r"'soft_current' is 3.0, accepted is at most firm_current, 2 A"):
+    with pytest.raises(ParameterError, match=r"'soft_current' is 3.0, accepted: at most firm_current, 2 A"):
         find_law(name)(PERIOD, soft_current=3.0, firm_current=2.0)
 
 

@@ -69,7 +69,7 @@ def test_currents_of_another_number_are_refused(time, answers, coils):
 def test_more_currents_than_a_message_may_carry_are_refused(count):
     """Though all of them are there."""
     data = bytes([0, 1, 0, 0]) + Struct("<iI I4s iI I4x").pack(0, 0, 1, bytes(4), 0, 0, count) + bytes(8 * count)
-    with pytest.raises(LayoutError, match=f"field current has {count} elements, accepted are at most 16"):
+    with pytest.raises(LayoutError, match=f"field current has {count} elements, accepted: at most 16"):
         ANSWER.read(data)
 
 

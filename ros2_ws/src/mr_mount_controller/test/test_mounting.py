@@ -39,15 +39,15 @@ def test_a_description_comes_back(coils, pads):
     ("mounts", "words"),
     [
         ([("a", 0, (0.0,) * 3)] * 2, "mount names are a, a, must be unique"),
-        ([("", 0, (0.0,) * 3)], "a mount is called '', accepted are 1 to 64 characters"),
+        ([("", 0, (0.0,) * 3)], "a mount is called '', accepted: 1 to 64 characters"),
         ([("a\nb", 0, (0.0,) * 3)], r"a mount is called 'a\\nb'"),
-        ([("n" * 65, 0, (0.0,) * 3)], "accepted are 1 to 64 characters"),
-        ([("a", 7, (0.0,) * 3)], r"mount a is of kind 7, accepted are 0 \(MR\), 1 \(RUBBER\)"),
-        ([("a", 0, (0.0, math.nan, 0.0))], "mount a is at .*nan.* accepted is up to 100 m"),
-        ([("a", 0, (0.0, 1e9, 0.0))], "mount a is at .*accepted is up to 100 m"),
+        ([("n" * 65, 0, (0.0,) * 3)], "accepted: 1 to 64 characters"),
+        ([("a", 7, (0.0,) * 3)], r"mount a is of kind 7, accepted: 0 \(MR\), 1 \(RUBBER\)"),
+        ([("a", 0, (0.0, math.nan, 0.0))], "mount a is at .*nan.* accepted: up to 100 m"),
+        ([("a", 0, (0.0, 1e9, 0.0))], "mount a is at .*accepted: up to 100 m"),
         ([("a", 1, (0.0,) * 3), ("b", 0, (0.0,) * 3)], "a rubber mount is described before a magnetorheological one"),
-        ([(f"m{k}", 0, (0.0,) * 3) for k in range(17)], "17 magnetorheological mounts are described, accepted are 16"),
-        ([(f"m{k}", 1, (0.0,) * 3) for k in range(33)], "33 mounts are described, accepted are at most 32"),
+        ([(f"m{k}", 0, (0.0,) * 3) for k in range(17)], "17 magnetorheological mounts are described, accepted: 16"),
+        ([(f"m{k}", 1, (0.0,) * 3) for k in range(33)], "33 mounts are described, accepted: at most 32"),
     ],
 )
 def test_nonsense_is_refused(mounts, words):

@@ -17,13 +17,14 @@ from .ordinary_file import open_ordinary
 METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "km": 1e3, "in": 0.0254, "ft": 0.3048}
 _LARGEST = 2**30  # bytes
 _LONGEST = 10_000  # characters of a line
+_TOLD = 10_000  # lines, after which progress is told
 
 
 class CsvError(ValueError):
     """A file that cannot be used; the message names it, the line or column and what is accepted."""
 
 
-def read_columns(path, units, layouts, optional, most, called=None):
+def read_columns(path, units, layouts, optional, most, called=None, on_progress=lambda done: None):
     """Return the columns (n,) of a CSV file by quantity, in the units whose factor is 1.
 
     Parameters
@@ -39,6 +40,8 @@ def read_columns(path, units, layouts, optional, most, called=None):
         Lines of numbers that are accepted.
     called : mapping, optional
         Column as it would be called -> what the file calls it.
+    on_progress : callable, optional
+        Called from time to time with the number of bytes read.
 
     Raises
     ------
@@ -50,14 +53,15 @@ def read_columns(path, units, layouts, optional, most, called=None):
     name = readable(str(path))
     try:
         with open_ordinary(path, _LARGEST) as file, TextIOWrapper(file, encoding="utf-8-sig", newline="") as text:
-            return _read(text, name, units, layouts, optional, most, called or {})
+            tell = lambda: on_progress(file.tell())  # noqa: E731
+            return _read(text, name, units, layouts, optional, most, called or {}, tell)
     except UnicodeDecodeError as error:
         raise CsvError(f"{name} is not UTF-8 text: it has a byte 0x{error.object[error.start]:02x}") from None
     except csv.Error as error:  # NUL, for older versions of Python
         raise CsvError(f"{name} is not a CSV file: {error}") from None
 
 
-def _read(file, name, units, layouts, optional, most, called):
+def _read(file, name, units, layouts, optional, most, called, tell):
     lines = _lines(file, name)
     number, head = next(lines, (0, ""))
     if not head:
@@ -81,7 +85,9 @@ def _read(file, name, units, layouts, optional, most, called):
             numbers.extend([_number(cells[place], delimiter) for place in places])
         except (ValueError, IndexError):
             shown = readable(shortened(line))
-            raise CsvError(f"{name}, line {number}: {shown!r}, accepted are {len(columns)} numbers") from None
+            raise CsvError(f"{name}, line {number}: {shown!r}, accepted: {len(columns)} numbers") from None
+        if number % _TOLD == 0:
+            tell()
         if len(numbers) > most * len(places):
             raise CsvError(f"{name}: more than {most} samples")
     rows = np.frombuffer(numbers).reshape(-1, len(places)).T
@@ -120,4 +126,4 @@ def _columns(columns, name, units, layouts, optional):
     accepted = " or ".join(",".join(f"{each}_UNIT" for each in names) for names in layouts)
     known = list(dict.fromkeys(unit for names in layouts for each in names for unit in units[each]))
     told = ", ".join(readable(shortened(column)) for column in islice(columns, 10))
-    raise CsvError(f"{name} has the columns {told}; accepted are {accepted}, UNIT being one of {', '.join(known)}")
+    raise CsvError(f"{name} has the columns {told}; accepted: {accepted}, UNIT being one of {', '.join(known)}")

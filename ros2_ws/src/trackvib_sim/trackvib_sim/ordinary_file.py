@@ -24,4 +24,4 @@ def open_ordinary(path, largest):
     os.close(descriptor)
     if not S_ISREG(told.st_mode):
         raise OSError(errno.EINVAL, "it is not a regular file")
-    raise OSError(errno.EFBIG, f"it has {told.st_size} bytes, accepted are {largest}")
+    raise OSError(errno.EFBIG, f"it has {told.st_size} bytes, accepted: {largest}")

@@ -73,7 +73,7 @@ def validated(model, text, name, kinds=None):
 
 def _bounded(text, name, read):
     if len(text) > LARGEST:
-        raise YamlTextError(readable(f"{name}: has {len(text)} characters, accepted are {LARGEST}"))
+        raise YamlTextError(readable(f"{name}: has {len(text)} characters, accepted: {LARGEST}"))
     try:
         _check_events(text)
         return read()
@@ -95,7 +95,7 @@ def _sentence(name, error, kinds, model):
     if error["type"] == "extra_forbidden":
         accepted = _accepted(model, loc)
         meant = suggestion(str(loc[-1]), accepted)
-        return f"{name}: {item} is {value}: unknown item; accepted are {', '.join(accepted)}{meant}"
+        return f"{name}: {item} is {value}: unknown item; accepted: {', '.join(accepted)}{meant}"
     if error["type"] == "missing":
         return f"{name}: {item} is missing"
     if error["type"] == "value_error":
@@ -129,7 +129,7 @@ def _check_events(text):
         if isinstance(event, yaml.CollectionStartEvent):
             depth += 1
             if depth > DEEPEST:
-                raise yaml.YAMLError(f"nested too deeply, accepted are {DEEPEST} levels")
+                raise yaml.YAMLError(f"nested too deeply, accepted: {DEEPEST} levels")
         elif isinstance(event, yaml.CollectionEndEvent):
             depth -= 1
 
@@ -149,7 +149,7 @@ def _check_node(node):
         for each in node.value:
             _check_node(each)
     elif node is not None and node.tag == "tag:yaml.org,2002:int" and len(node.value) > LONGEST_NUMBER:
-        raise yaml.YAMLError(f"a number of {len(node.value)} characters, accepted are {LONGEST_NUMBER}")
+        raise yaml.YAMLError(f"a number of {len(node.value)} characters, accepted: {LONGEST_NUMBER}")
 
 
 class _Loader(yaml.CSafeLoader):

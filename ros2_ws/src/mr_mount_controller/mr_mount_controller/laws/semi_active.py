@@ -22,7 +22,7 @@ SEMI_ACTIVE = (SOFT, FIRM, CORNER)
 def check_currents(soft, firm):
     """Raise `ParameterError` unless the soft current [A] is at most the firm one."""
     if soft > firm:
-        raise ParameterError(f"parameter 'soft_current' is {soft!r}, accepted is at most firm_current, {firm:g} A")
+        raise ParameterError(f"parameter 'soft_current' is {soft!r}, accepted: at most firm_current, {firm:g} A")
 
 
 class SemiActiveLaw(ControlLaw):

@@ -203,7 +203,7 @@ class _Walk:
             if count is None:
                 count = self._take_length(name, _least(kind.kind))
                 if kind.most is not None and count > kind.most:
-                    raise LayoutError(f"field {name} has {count} elements, accepted are at most {kind.most}")
+                    raise LayoutError(f"field {name} has {count} elements, accepted: at most {kind.most}")
             if isinstance(kind.kind, str) and kind.kind is not TEXT:
                 self._take_numbers(name, kind.kind, count)
                 return

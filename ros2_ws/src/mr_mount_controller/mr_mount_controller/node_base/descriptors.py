@@ -7,7 +7,7 @@ def descriptor_of(parameter, fixed):
     """Return the ROS descriptor of a `parameters.Parameter`."""
     descriptor = ParameterDescriptor(
         description=f"{parameter.description} [{parameter.unit}]" if parameter.unit else parameter.description,
-        additional_constraints=f"accepted is {parameter.accepted}",
+        additional_constraints=f"accepted: {parameter.accepted}",
         read_only=fixed,
     )
     if parameter.low is not None:

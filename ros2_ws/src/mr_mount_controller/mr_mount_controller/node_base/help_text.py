@@ -50,7 +50,7 @@ def _parameter(prefix, parameter):
         shown = f"[{', '.join(default)}]"
     else:
         shown = str(default).lower() if isinstance(default, bool) else default
-    return _block(f"{prefix}{parameter.name}:={shown}", f"{parameter.description} Accepted is {parameter.accepted}.")
+    return _block(f"{prefix}{parameter.name}:={shown}", f"{parameter.description} Accepted: {parameter.accepted}.")
 
 
 def _topic(topic):

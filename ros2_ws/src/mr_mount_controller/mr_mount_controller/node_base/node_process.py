@@ -21,7 +21,7 @@ from .plain_text import plain_line
 from .shared_memory import remove_unfinished_segments
 
 _ACCEPTED = (
-    "accepted are --ros-args and then -p NAME:=VALUE, -r FROM:=TO, --params-file FILE, --log-level LEVEL "
+    "accepted: --ros-args and then -p NAME:=VALUE, -r FROM:=TO, --params-file FILE, --log-level LEVEL "
     "and the others of ROS 2"
 )
 

@@ -81,7 +81,7 @@ class MessageReader(Checker):
         seconds, nanoseconds, *numbers = self._numbers_of(data)
         if seconds < 0 or nanoseconds >= NANO:
             raise LayoutError(
-                f"time is {seconds} s and {nanoseconds} ns, accepted are 0 s or more and less than {NANO} ns"
+                f"time is {seconds} s and {nanoseconds} ns, accepted: 0 s or more and less than {NANO} ns"
             )
         return seconds * NANO + nanoseconds, numbers
 

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from math import isfinite
 
+from .plain_text import span
+
 _WHOLE = 1 << 53  # up to which floating-point numbers hold every whole number
 
 
@@ -53,7 +55,7 @@ class Parameter:
         }
         words = kind[type(self.default)]
         if self.low is not None:
-            words += f" from {self.low:g} to {self.high:g}"
+            return f"{words} from {span(self.low, self.high, self.unit)}"
         return f"{words} {self.unit}".rstrip()
 
     def check(self, value):
@@ -75,7 +77,7 @@ class Parameter:
         if good and self.low is not None:
             good = self.low <= value <= self.high
         if not good:
-            raise ParameterError(f"parameter '{self.name}' is {value!r}, accepted is {self.accepted}")
+            raise ParameterError(f"parameter '{self.name}' is {value!r}, accepted: {self.accepted}")
         return value
 
     def converted(self, value):

@@ -1,4 +1,4 @@
-"""Text from outside (names of files, topics and nodes, what a bag or a file tells) as it may be shown."""
+"""Text as it may be shown: from outside (names of files, topics and nodes, what a bag tells), numbers and ranges."""
 
 LONGEST_LINE = 2000  # characters
 
@@ -22,3 +22,14 @@ def shortened(text, longest=200):
 def plain_line(text):
     """Return a text as one line of signs, without its middle if it is longer than `LONGEST_LINE`."""
     return shortened(readable(text), LONGEST_LINE)
+
+
+def number(value):
+    """Return a number as one writes it: 0.3, 1000000, 2e12; without the digits that rounding leaves."""
+    digits, _, power = f"{value:.10g}".partition("e")
+    return f"{digits}e{int(power)}" if power else digits
+
+
+def span(low, high, unit=""):
+    """Return a range in words, such as "0.1 to 2 m"."""
+    return f"{number(low)} to {number(high)} {unit}".rstrip()

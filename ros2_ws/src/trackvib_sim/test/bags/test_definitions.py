@@ -82,7 +82,7 @@ def test_what_does_not_fit_is_refused():
     incomplete = DEFINITION.replace("MSG: some_msgs/Inner", "MSG: some_msgs/Other").encode()
     with pytest.raises(LayoutError, match="field pairs is a some_msgs/msg/Inner, which .* does not define"):
         Definition(NAME, "ros2msg", incomplete)
-    with pytest.raises(LayoutError, match="is in 'protobuf', accepted are ros2msg, ros2idl"):
+    with pytest.raises(LayoutError, match="is in 'protobuf', accepted: ros2msg, ros2idl"):
         Definition(NAME, "protobuf", b"")
     with pytest.raises(LayoutError, match="definition of some_msgs/msg/Mixed is missing"):
         Definition(NAME, "ros2msg", b"")

@@ -131,7 +131,7 @@ def test_what_is_too_large_is_named_with_what_is_accepted(tmp_path):
     bomb = next(data for name, data in files(1 << 27) if name.startswith("bomb zstd told"))
     (tmp_path / NAME).write_bytes(bomb)
     for verb in (read_recording, messages, OpenBag, repair):
-        with pytest.raises(BagError, match=rf"{1 << 27} bytes, accepted are {64 << 20} \(64 MiB; --largest-chunk"):
+        with pytest.raises(BagError, match=rf"{1 << 27} bytes, accepted: {64 << 20} \(64 MiB; --largest-chunk"):
             verb(tmp_path)
     token = largest_chunk.set(256)
     try:

@@ -33,7 +33,7 @@ def test_foreign_names_are_refused_with_those_that_are_there(tmp_path):
         read_recording(bag)  # neither ends as ours do
     with pytest.raises(BagError, match="no topic '/c' for chassis; there are /a/imu_raw"):
         read_recording(bag, sources=Sources({"chassis": "/c"}))
-    with pytest.raises(BagError, match="'/gps' is a sensor_msgs/msg/NavSatFix, accepted are sensor_msgs/msg/Imu, "):
+    with pytest.raises(BagError, match="'/gps' is a sensor_msgs/msg/NavSatFix, accepted: sensor_msgs/msg/Imu, "):
         read_recording(bag, sources=Sources({"chassis": "/gps"}))
 
 
@@ -134,9 +134,9 @@ def test_csv_files_stand_in_for_topics(tmp_path):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("t,a,b,c\n1,2,3,4\n", "has the columns t, a, b, c; accepted are time_UNIT,chassis_x_UNIT"),
+        ("t,a,b,c\n1,2,3,4\n", "has the columns t, a, b, c; accepted: time_UNIT,chassis_x_UNIT"),
         ("time_s,x_g,y_g,z_g\n1,2,3,nan\n", "1 times, at least two"),
-        ("time_s,x_g,y_g,z_g\n1,2,3\n2,3,4,5\n", "line 2: '1,2,3', accepted are 4 numbers"),
+        ("time_s,x_g,y_g,z_g\n1,2,3\n2,3,4,5\n", "line 2: '1,2,3', accepted: 4 numbers"),
         ("time_s,x_g,y_g,z_g\ninf,2,3,4\n2,3,4,5\n", "all of them finite"),
         ("", "is empty"),
     ],

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import yaml
 from trackvib_sim.data import find_vehicle, vehicle_names
-from trackvib_sim.drawings.standing_vehicle import standing_loads
 from trackvib_sim.drawings.vehicle_table import figures, parameters
 from trackvib_sim.vehicle.body_tree import GRAVITY, build_body_table
 from trackvib_sim.vehicle.mounts import mount_turn
+from trackvib_sim.vehicle.standing import standing
 from trackvib_sim.vehicle.system import Operation, build_system
 from trackvib_sim.vehicle.vehicle_file import parse_vehicle, read_vehicle
 
@@ -106,13 +106,13 @@ def test_ground_carries_the_weight(name):
     vehicle, _ = read_vehicle(find_vehicle(name))
     system = build_system(vehicle, Operation(0.0, 0.0, False), 1e-4)
     weight = GRAVITY * sum(body.mass for body in build_body_table(vehicle)) + system.supports.upper_weight.sum()
-    assert standing_loads(vehicle).wheel.sum() == pytest.approx(weight, rel=1e-6)
+    assert standing(vehicle).wheel.sum() == pytest.approx(weight, rel=1e-6)
 
 
 @pytest.mark.analytic
 def test_free_powertrain_is_carried_by_its_mounts():
     """The parts of the mounts' loads along the vertical sum up to its weight."""
     vehicle, _ = read_vehicle(find_vehicle("tao2025_free"))
-    loads = standing_loads(vehicle).mount
+    loads = standing(vehicle).mount
     carried = sum((mount_turn(mount) @ loads[name])[2] for name, mount in vehicle.mounts.items())
     assert carried == pytest.approx(vehicle.powertrain.mass * GRAVITY, rel=1e-4)  # the hull leans a little

@@ -119,11 +119,11 @@ def test_a_run_that_fails_ends_the_episode(tmp_path):
 @pytest.mark.parametrize(
     ("action", "said"),
     [
-        (np.array([np.nan, 0.0]), "accepted are finite numbers"),
-        (np.array([np.inf, 0.0]), "accepted are finite numbers"),
-        (np.zeros(3), r"has shape \(3,\), accepted is \(2,\)"),
-        (0.5, r"has shape \(\), accepted is \(2,\)"),
-        (["firm", "soft"], "accepted are numbers"),
+        (np.array([np.nan, 0.0]), "accepted: finite numbers"),
+        (np.array([np.inf, 0.0]), "accepted: finite numbers"),
+        (np.zeros(3), r"has shape \(3,\), accepted: \(2,\)"),
+        (0.5, r"has shape \(\), accepted: \(2,\)"),
+        (["firm", "soft"], "accepted: numbers"),
         (None, "accepted"),
     ],
 )
@@ -140,7 +140,7 @@ def test_actions_that_are_none(env, action, said):
     ("options", "said"),
     [
         ({"speed": 5.0}, "there is no option 'speed'; known is 'road_seed'"),
-        ({"road_seed": -1}, "'road_seed' is -1, accepted is a whole number from 0 to"),
+        ({"road_seed": -1}, "'road_seed' is -1, accepted: a whole number from 0 to"),
         ({"road_seed": 1.5}, "'road_seed' is 1.5"),
         ({"road_seed": "1"}, "'road_seed' is '1'"),
     ],
@@ -155,7 +155,7 @@ def test_options_that_are_none(env, options, said):
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        ({"speed": 99.0}, "'speed' is 99.0, accepted is a number from -25 to 25 m/s"),
+        ({"speed": 99.0}, "'speed' is 99.0, accepted: a number from -25 to 25 m/s"),
         ({"spede": 5.0}, "there is no parameter spede; known are speed, drive"),
         ({"duration": 5.0}, "there is no parameter duration"),
         ({"control_rate": 999}, "physics_rate 5000 Hz and control_rate 999 Hz conflict"),

@@ -62,7 +62,7 @@ def test_impossible_vehicles_are_refused(refusal, vehicle, words):
         ({"engine_speed": 100.0}, ("'engine_speed' is 100.0", "0 or 450 to 2100 r/min")),
         ({"measure_rate": 300}, ("control_rate 1000 Hz and measure_rate 300 Hz conflict",)),
         ({"control_rate": 999}, ("physics_rate 5000 Hz and control_rate 999 Hz conflict",)),
-        ({"physics_rate": 999}, ("'physics_rate' is 999, accepted is 0 or at least 1000 Hz",)),
+        ({"physics_rate": 999}, ("'physics_rate' is 999, accepted: 0 or at least 1000 Hz",)),
     ],
 )
 def test_values_that_do_not_fit_are_refused(refusal, values, words):

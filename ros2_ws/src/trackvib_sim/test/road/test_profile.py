@@ -81,12 +81,12 @@ def test_repeated_it_has_no_joint():
 @pytest.mark.parametrize(
     ("distance", "heights", "words"),
     [
-        ([0.0], [[0.0]] * 2, "1 samples, accepted are 2 to"),
+        ([0.0], [[0.0]] * 2, "1 samples, accepted: 2 to"),
         ([0.0, 1.0], [[0.0, np.nan], [0.0, 0.0]], "left height of sample 2 is nan"),
         ([0.0, np.inf], [[0.0, 0.0]] * 2, "distance of sample 2 is inf"),
         ([0.0, 0.5, 0.4], [[0.0] * 3] * 2, "distance goes from 0.5 to 0.4 m at sample 3, must rise"),
         ([0.0, 0.5, 0.5], [[0.0] * 3] * 2, "from 0.5 to 0.5 m at sample 3"),
-        ([0.0, 0.5, 3.0], [[0.0] * 3] * 2, "a gap of 2.5 m from 0.5 m on, accepted are up to 1 m"),
+        ([0.0, 0.5, 3.0], [[0.0] * 3] * 2, "a gap of 2.5 m from 0.5 m on, accepted: up to 1 m"),
         ([0.0, 0.5], [[0.0, 0.0], [0.0, 2000.0]], "right is 2000 m high"),
         (
             0.05 * np.arange(40),

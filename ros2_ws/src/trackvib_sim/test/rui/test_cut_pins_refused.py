@@ -30,7 +30,7 @@ def _refused(match, **changes):
         ("axis is .*, must not be zero", {"axis": (0, 0, 0)}),
         ("alpha is -1.0 1/s, must be finite and >= 0", {"alpha": -1.0}),
         ("beta is inf 1/s, must be finite and >= 0", {"beta": np.inf}),
-        ("hinge 3 of body 'right' is revolute with axis .*accepted are revolute parallel", {"axis": (0, 1, 1e-3)}),
+        ("hinge 3 of body 'right' is revolute with axis .*accepted: revolute parallel", {"axis": (0, 1, 1e-3)}),
         (r"points are 0\.2\d* m apart along \(0, 1, 0\), must be 0 m", {"point_a": (1.5, 0.2, 0)}),
     ],
 )

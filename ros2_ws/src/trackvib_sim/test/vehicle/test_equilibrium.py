@@ -116,7 +116,7 @@ def test_vehicle_on_its_bump_stops_stands(changed, support_loads, mass):
 )
 def test_vehicle_that_cannot_stand_is_refused(changed, section, items):
     """Where something would move, the refusal says by how much and what is accepted."""
-    with pytest.raises(NoEquilibrium, match=r"still accelerates by .* accepted is < 1e-08"):
+    with pytest.raises(NoEquilibrium, match=r"still accelerates by .* accepted: below 1e-8"):
         static_equilibrium(standing(changed(section, **items)), 1.0)
 
 

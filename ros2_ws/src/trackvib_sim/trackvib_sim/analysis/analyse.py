@@ -78,6 +78,7 @@ def analyse(
     sensors, rates = axis_numbers(levels), {sensor: found.rate for sensor, found in levels.items()}
     motion = mean_motion(recording, segments.settled)
     pitch, orders, no_vehicle = read_causes(recording)
+    lines, unattributed = known_lines(spectra, motion, pitch, orders)
     order_levels, order_spectra = track_orders(recording, segments, orders)
     mounts, answers, energy = recording.mounts, recording.answers, mount_energy(recording)
     names, (force, power) = recording.mounting.names, drive(recording)
@@ -102,7 +103,7 @@ def analyse(
         motion_sickness={
             sensor: sickness for sensor, found in levels.items() if (sickness := found.motion_sickness()) is not None
         },
-        lines=known_lines(spectra, motion, pitch, orders),
+        lines=lines,
         **numbers_in_parts(parts, levels, recording, segments),
         order_levels=order_levels,
         order_spectra=order_spectra,
@@ -123,5 +124,6 @@ def analyse(
             *unit_notes(sensors),
             *missing_causes(recording, motion),
             *no_vehicle,
+            *unattributed,
         ),
     )

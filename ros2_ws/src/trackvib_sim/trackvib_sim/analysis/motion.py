@@ -37,6 +37,8 @@ class MeanMotion(NamedTuple):
     speed_deviation: float
     engine_speed: float  # as recorded, else as the simulator was told, r/min
     engine_speed_deviation: float  # 0 where it was only told
+    speed_range: tuple  # least and greatest speed over a second, m/s
+    engine_speed_range: tuple  # r/min
 
 
 def speed_of(recording):
@@ -86,11 +88,16 @@ def mean_motion(recording, settled):
     odometry, engine = recording.odometry, engine_speed_of(recording)
     if engine is None:
         told = float(parameters_with(recording.provenance, "engine_speed")[1].get("engine_speed", "nan"))
-        turned = told, 0.0
+        turned, turning = (told, 0.0), (told, told)
     else:
-        turned = _moments(engine.stamp, engine.value, settled)
+        turned, turning = _moments(engine.stamp, engine.value, settled), _range(engine, settled)
     moved = (np.nan, np.nan) if odometry is None else _moments(odometry.stamp, odometry.speed, settled)
-    return MeanMotion(*moved, *turned)
+    return MeanMotion(*moved, *turned, _range(speed_of(recording), settled), turning)
+
+
+def _range(slow, settled):
+    value = np.empty(0) if slow is None else slow.after(settled).value
+    return (float(value.min()), float(value.max())) if len(value) else (np.nan, np.nan)
 
 
 def _moments(stamp, values, settled):

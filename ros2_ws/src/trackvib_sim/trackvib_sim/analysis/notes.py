@@ -29,7 +29,9 @@ def find_notes(recording, segments):
             % found.samples,  # of a sensor that measured nothing all
         }
         notes += [f"{end}: {text}" for text, count in counts.items() if count]
-    return notes + [f"no {end} in the bag: {what}" for end, what in _WITHOUT.items() if end not in recording.streams]
+    return notes + [
+        f"no {end} in the recording: {what}" for end, what in _WITHOUT.items() if end not in recording.streams
+    ]
 
 
 def rate_notes(rates):

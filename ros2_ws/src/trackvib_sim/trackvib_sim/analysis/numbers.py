@@ -13,6 +13,7 @@ AXES = ("x", "y", "z")
 SENSORS = ("chassis", "powertrain")
 INTERVAL = 50.0  # m of way, by which numbers are given
 SPEED_BAND = 2.0  # m/s, likewise
+STEADY = 0.05  # of its frequency, by which a line may move and still be one
 
 
 def _number(unit):
@@ -47,10 +48,22 @@ class Line:
     """A line of the spectrum with a known cause, and what lies in a band around it."""
 
     name: str  # "link passing 1", "engine order 2"
-    frequency: float = _number("Hz")
+    frequency: float = _number("Hz")  # at the mean speed
+    lowest: float = _number("Hz")  # over the speeds driven
+    highest: float = _number("Hz")
     low: float = _number("Hz")  # of the band
     high: float = _number("Hz")
     rms: dict = _number("m/s²")  # sensor -> axis -> RMS in the band
+
+    @property
+    def sweeps(self):
+        """Whether it moved with a speed that varied, so that no single frequency stands for it."""
+        return self.highest - self.lowest > STEADY * self.frequency
+
+    @property
+    def hertz(self):
+        """Its frequency in words, or the range over which it moved."""
+        return f"{self.lowest:.1f} to {self.highest:.1f}" if self.sweeps else f"{self.frequency:.1f}"
 
 
 @dataclass(frozen=True)
@@ -254,6 +267,8 @@ class Analysis:
     speed_deviation: float = _number("m/s")  # its standard deviation
     engine_speed: float = _number("r/min")  # mean as recorded, else as the simulator was told
     engine_speed_deviation: float = _number("r/min")  # its standard deviation, 0 where it was only told
+    speed_range: tuple = _number("m/s")  # least and greatest speed, averaged over 1 s
+    engine_speed_range: tuple = _number("r/min")  # least and greatest engine speed
     drive_force: float = _number("N")  # work of the drive a metre: the running resistance where speed is steady
     drive_power: float = _number("W")  # work of the drive a second; both from the start, as the simulator told them
     sensors: dict  # sensor -> axis -> AxisNumbers

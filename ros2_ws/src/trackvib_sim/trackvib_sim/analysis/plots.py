@@ -1,13 +1,16 @@
 """Pictures of one run."""
 
+import numpy as np
 from matplotlib.figure import Figure
 
+from .labels import joined
 from .numbers import SENSORS
 from .sensor_style import COLOURS, LOWEST_FREQUENCY
 from .vibration import psd
 
 # Of lines, and opacity: a broad one below a narrow one is seen, too.
 _WIDTHS = {"chassis": (1.8, 0.45), "powertrain": (0.7, 1.0)}
+LABEL_WIDTH = 0.011  # of the width of the spectrum, of a label that stands upright
 CLOSE = 1.0  # s of the history: of a whole run the curve drawn last would hide the other
 
 
@@ -41,16 +44,29 @@ def _spectrum(plot, prepared, lines):
     for sensor in SENSORS:
         frequency, density = psd(prepared.raw[sensor][prepared.settled], prepared.rate)
         plot.loglog(frequency[1:], density[1:, 2], color=COLOURS[sensor], linewidth=1.0, label=sensor)
-    for line in lines:
-        side = "left" if line.name.startswith("link") else "right"  # of its line, for a link's and an order's lie close
-        plot.axvline(line.frequency, color="0.4", linewidth=0.8, linestyle=":")
-        plot.text(
-            line.frequency, 0.02, f"{line.name}: {line.frequency:.1f} Hz", transform=plot.get_xaxis_transform(),
-            rotation=90, va="bottom", ha=side, fontsize=7, color="0.25",
-        )  # fmt: skip
     plot.set_xlim(LOWEST_FREQUENCY, prepared.rate / 2)
+    mark_lines(plot, [line for line in lines if line.frequency >= LOWEST_FREQUENCY])
     plot.set_xlabel("frequency, Hz")
     plot.set_ylabel("(m/s²)²/Hz")
-    plot.set_title("vertical power spectral density, with lines of link passing (v/p) and engine orders", fontsize=10)
+    plot.set_title(
+        "vertical power spectral density, with link passing (v/p) and engine orders; shaded: speed varied",
+        fontsize=10,
+    )
     plot.grid(alpha=0.3, which="both")
     plot.legend(fontsize=8, loc="upper left")
+
+
+def mark_lines(plot, lines):
+    """Mark lines of known cause, or the ranges over which they moved."""
+    low, high = np.log10(plot.get_xlim())
+    named = [(line.lowest * line.highest) ** 0.5 if line.sweeps else line.frequency for line in lines]
+    for line in lines:
+        if line.sweeps:
+            plot.axvspan(line.lowest, line.highest, color="0.4", alpha=0.15, linewidth=0.0)
+        else:
+            plot.axvline(line.frequency, color="0.4", linewidth=0.8, linestyle=":")
+    for group in joined(np.log10(named), LABEL_WIDTH * (high - low)):
+        plot.text(
+            named[group[0]], 0.02, ", ".join(f"{lines[each].name}: {lines[each].hertz} Hz" for each in group),
+            transform=plot.get_xaxis_transform(), rotation=90, va="bottom", ha="right", fontsize=7, color="0.25",
+        )  # fmt: skip

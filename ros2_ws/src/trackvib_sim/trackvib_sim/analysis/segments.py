@@ -9,10 +9,9 @@ from mr_mount_controller.node_base import topics
 from ..bags.provenance import parameters_with
 from ..numerics.units import NANO
 from .numbers import SENSORS, Timing
-from .settling import SHORTEST_SETTLING, VEHICLE_BEHIND, settling_time
+from .settling import SHORTEST_MEASURING, SHORTEST_SETTLING, VEHICLE_BEHIND, settling_time
 from .stamps import start_of, timing
 
-SHORTEST_MEASURING = 1.0  # s
 SLOWEST = 10.0  # Hz, of a further sensor: half of it is a band in which levels mean something
 _IMUS = (topics.CHASSIS_IMU, topics.POWERTRAIN_IMU)
 

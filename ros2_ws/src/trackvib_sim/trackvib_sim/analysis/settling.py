@@ -1,6 +1,7 @@
-"""How long a run settles before it is measured."""
+"""How long a run settles before it is measured, and how long it is measured at least."""
 
 SHORTEST_SETTLING = 2.0  # s
+SHORTEST_MEASURING = 1.0  # s, after it
 VEHICLE_BEHIND = 2.5  # m from the hull's origin to beyond the rear wheels
 
 

@@ -122,7 +122,7 @@ class Accelerations:
             raise ValueError(f"it has no topic {wanted!r} for {name}; {self.listed()}")
         if topic not in self._columns:
             accepted = ", ".join(ACCELERATION_TYPES)
-            raise ValueError(f"{wanted!r} is a {self._types[topic]}, accepted are {accepted}; {self.listed()}")
+            raise ValueError(f"{wanted!r} is a {self._types[topic]}, accepted: {accepted}; {self.listed()}")
         return topic
 
     def listed(self):

@@ -1,5 +1,6 @@
 """A CSV file with time and three axes of one sensor, or of chassis and powertrain, as a recording."""
 
+import os
 from collections import Counter
 
 import numpy as np
@@ -27,7 +28,7 @@ _MOST = 50_000_000  # samples
 _LONGEST = 2.0**62 / NANO  # s, that a stamp can hold
 
 
-def read_csv(path, sources, single="chassis"):
+def read_csv(path, sources, single="chassis", on_progress=lambda done: None):
     """Return `Inertial` and `Origin` by sensor of a CSV file.
 
     Parameters
@@ -37,6 +38,8 @@ def read_csv(path, sources, single="chassis"):
         Its `csv_columns` tell what the file calls its columns.
     single : str
         Which sensor the axes are of that belong to none by their names.
+    on_progress : callable
+        Called from time to time with the number of bytes read.
 
     Raises
     ------
@@ -44,7 +47,7 @@ def read_csv(path, sources, single="chassis"):
         It cannot be read, or its times do not go on.
     """
     try:
-        columns = read_columns(path, UNITS, LAYOUTS, (), _MOST, sources.csv_columns)
+        columns = read_columns(path, UNITS, LAYOUTS, (), _MOST, sources.csv_columns, on_progress)
     except CsvError as error:
         raise BagError(str(error)) from None
     except OSError as error:
@@ -61,11 +64,18 @@ def read_csv(path, sources, single="chassis"):
     return found
 
 
-def csv_recording(path, sources):
-    """Return the `Recording` of a CSV file, and of those that `sources` name beside it; raises as `read_csv` does."""
-    sensors = read_csv(path, sources)
-    for name, file in sources.topics.items():
-        sensors |= read_csv(file, sources, name)
+def csv_recording(path, sources, on_progress):
+    """Return the `Recording` of a CSV file, and of those that `sources` name beside it; raises as `read_csv` does.
+
+    `on_progress` is called from time to time with the number of bytes read and their total number.
+    """
+    sensors, done = {}, 0
+    files = [("chassis", path), *sources.topics.items()]
+    sizes = [_size(file) for _, file in files]
+    for (name, file), size in zip(files, sizes, strict=True):
+        sensors |= read_csv(file, sources, name, lambda read, before=done: on_progress(before + read, sum(sizes)))
+        done += size
+        on_progress(done, sum(sizes))
     return Recording(
         path=path,
         topics={end_of_sensor(name): origin.source for name, (_, origin) in sensors.items()},
@@ -80,6 +90,13 @@ def csv_recording(path, sources):
         counts=Counter({origin.source: len(inertial.stamp) for inertial, origin in sensors.values()}),
         complete=True,
     )
+
+
+def _size(file):
+    try:
+        return os.stat(file).st_size
+    except (OSError, ValueError):
+        return 0  # reading it says what is wrong
 
 
 def pair_of(sensors):

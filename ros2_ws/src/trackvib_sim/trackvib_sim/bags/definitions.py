@@ -89,7 +89,7 @@ def _parsed(type_name, encoding, text):
         parse = _PARSERS[encoding]
     except KeyError:
         accepted = ", ".join(_PARSERS)
-        raise UnreadableDefinition(f"schema of {type_name} is in {encoding!r}, accepted are {accepted}") from None
+        raise UnreadableDefinition(f"schema of {type_name} is in {encoding!r}, accepted: {accepted}") from None
     try:
         return parse(text.decode().replace("\r\n", "\n"), type_name)
     except (TypesysError, ValueError, LookupError) as error:

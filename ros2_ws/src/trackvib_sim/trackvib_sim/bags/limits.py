@@ -21,5 +21,5 @@ def largest_record():
 
 def too_large(what, size):
     """Return the error for something of `size` bytes; `what` names it with its place."""
-    accepted = f"accepted are {largest_record()} ({largest_chunk.get()} MiB; --largest-chunk raises it)"
+    accepted = f"accepted: {largest_record()} ({largest_chunk.get()} MiB; --largest-chunk raises it)"
     return TooLarge(f"{what} has {size} bytes, {accepted}")

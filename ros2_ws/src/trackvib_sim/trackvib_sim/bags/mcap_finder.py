@@ -110,7 +110,7 @@ class RecordFinder:
         first, last, size, checksum, name = _CHUNK.unpack_from(head)
         compression = head[_CHUNK.size : _CHUNK.size + min(name, _COMPRESSION)].decode()
         if name > _COMPRESSION or compression not in COMPRESSIONS:
-            raise ValueError(f"a chunk with compression {compression!r}, accepted are {', '.join(COMPRESSIONS)[2:]}")
+            raise ValueError(f"a chunk with compression {compression!r}, accepted: {', '.join(COMPRESSIONS)[2:]}")
         (declared,) = struct.unpack_from("<Q", head, _CHUNK.size + name)
         start = place + FRAME + _CHUNK.size + name + _LENGTH.itemsize
         by_head, by_frame = start + declared, place + FRAME + length

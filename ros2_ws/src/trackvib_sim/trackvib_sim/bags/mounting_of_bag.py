@@ -26,7 +26,7 @@ def mounting_of(told, mounts, answers):
         if any(other != count for other in others) or coils > count:
             raise ValueError(f"{topics.MOUNT_STATE} has {coils} currents and {count}, {others} numbers of mounts")
     if coils > MOST_COILS or count > MOST_MOUNTS:
-        raise ValueError(f"it has {coils} coils and {count} mounts, accepted are {MOST_COILS} and {MOST_MOUNTS}")
+        raise ValueError(f"it has {coils} coils and {count} mounts, accepted: {MOST_COILS} and {MOST_MOUNTS}")
     if told is None:
         return undescribed(coils, count)
     if mounts is not None and (told.coils, len(told.mounts)) != (coils, count):

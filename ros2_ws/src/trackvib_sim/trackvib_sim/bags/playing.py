@@ -86,7 +86,7 @@ class OpenBag:
                 raise BagError(f"bag {str(path)!r} holds no messages")
             self.start, self.end = min(self._times), max(self._times)
             if self.end > _LATEST:
-                raise BagError(f"bag {str(path)!r} ends at {self.end} ns, accepted is up to {_LATEST}")
+                raise BagError(f"bag {str(path)!r} ends at {self.end} ns, accepted: up to {_LATEST}")
             self._file.flush()
             undo.pop_all()
         places = np.concatenate(self._places or [np.empty(0, _PLACE)])

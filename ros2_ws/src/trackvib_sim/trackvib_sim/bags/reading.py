@@ -5,6 +5,7 @@ Nothing is done message by message in Python but for the rare topics.
 
 from collections import Counter
 from collections.abc import Callable
+from os import SEEK_END
 from pathlib import Path
 
 import numpy as np
@@ -82,14 +83,15 @@ def read_recording(
     """
     path, reading = Path(path), _Reading(time == LOG_TIME, sources)
     if is_csv(str(path)):
-        return csv_recording(path, sources)
+        return csv_recording(path, sources, on_progress)
     found = find_files(path)
     files = found.files
     try:
         total, done = sum(file.stat().st_size for file in files), 0
         for file in files:
-            reading.read(file, lambda end, before=done: on_progress(before + end, total))
-            done += file.stat().st_size
+            size = file.stat().st_size
+            reading.read(file, lambda part, before=done, size=size: on_progress(before + round(part * size), total))
+            done += size
         recording = reading.recording(path)
     except BagError:
         raise
@@ -112,9 +114,11 @@ class _Reading:
         self._provenance, self._counts, self._complete = {}, Counter(), True
 
     def read(self, file, on_progress):
-        """Read one file; ids of schemas and channels are its own."""
+        """Read one file; ids of schemas and channels are its own. `on_progress` is called with the part read."""
         schemas, channels, definitions = {}, {}, {}
         with opened(file) as stream:
+            whole = stream.seek(0, SEEK_END)  # of a compressed file more than it has on disk
+            stream.seek(0)
             walk = Walk(stream)
             for part in walk.parts():
                 _require_undamaged(walk)
@@ -144,7 +148,7 @@ class _Reading:
                         messages = unfold_messages(part.data, start, size)
                         logged = part.messages.head["log_time"][of_channel].astype(np.int64)
                         self._take(channel.topic, schema.name, end, definitions[schema.id], *messages, logged)
-                on_progress(part.end)
+                on_progress(part.end / whole)
             _require_undamaged(walk)
             self._complete &= walk.complete
 

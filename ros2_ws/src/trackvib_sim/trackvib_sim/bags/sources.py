@@ -35,7 +35,7 @@ class Sources:
                 raise SourceError(f"{topic!r} is given for two sensors, must be for one")
         for angles in self.rotations.values():
             if len(angles) != 3 or not all(map(isfinite, angles)):
-                raise SourceError(f"a rotation is {angles}, accepted are roll, pitch and yaw in degrees")
+                raise SourceError(f"a rotation is {angles}, accepted: roll, pitch and yaw in degrees")
 
     def sensor_on(self, topic):
         """Return which named sensor a topic is that of; None of none."""

@@ -50,7 +50,7 @@ def run_analyze(bags, settle, interval, speed_band, out, time, unit, sources):
         write_report(report_data_list, folder / "report.html")
     for number, analysis in enumerate(analyses, 1):
         length = f"{analysis.duration:g} s, of which {analysis.measured:g} s count, after {analysis.settle:g} s"
-        console.print(f"bag {number}: {analysis.bag}: {length}", soft_wrap=True)
+        console.print(f"recording {number}: {analysis.bag}: {length}", soft_wrap=True)
         for note in analysis.notes:
             console.print(f"  {note}", soft_wrap=True)
     for table in (_levels(analyses), _speeds(analyses), _lines(analyses), _mounts(analyses)):
@@ -78,7 +78,7 @@ def _named(bag):
     try:
         yield
     except ValueError as error:
-        raise CommandError(f"bag {bag!r}: {error}") from None
+        raise CommandError(f"recording {bag!r}: {error}") from None
 
 
 def require_different(bags):
@@ -87,7 +87,7 @@ def require_different(bags):
     for bag in bags:
         files = {realpath(bag)} if is_csv(bag) else set(map(realpath, bag_files(bag)))
         if files & seen:
-            raise CommandError(f"bag {bag!r} is given twice")
+            raise CommandError(f"recording {bag!r} is given twice")
         seen |= files
 
 
@@ -138,7 +138,7 @@ def _lines(analyses):
         table.add_column(axis, justify="right")
     for analysis in _sections(table, analyses, "lines"):
         for line in analysis.lines:
-            names = (line.name, f"{line.frequency:.1f}")
+            names = (line.name, line.hertz)
             for sensor, axes in line.rms.items():
                 table.add_row(*names, sensor, *map(_told, axes.values()))
                 names = ("", "")
@@ -169,7 +169,7 @@ def _sections(table, analyses, name):
         if getattr(analysis, name):
             table.add_section()
             if len(analyses) > 1:
-                table.add_row(f"bag {number}", style="bold")
+                table.add_row(f"recording {number}", style="bold")
             yield analysis
 
 

@@ -15,11 +15,11 @@ from .sensor_options import sensor_options
 @click.argument("bags", nargs=-1, required=True, metavar="BAG...", type=click.Path())
 @click.option(
     "--settle",
-    type=FiniteRange(SHORTEST_SETTLING, 1e6),
+    type=FiniteRange(SHORTEST_SETTLING, 1e6, "s"),
     default=None,
     metavar="S",
-    help=f"Time from the start of each bag that does not count, in s, {SHORTEST_SETTLING:g} or more: filters "
-    "settle, too.  [default: until the recorded run has settled, by its parameters]",
+    help="Time from the start of each bag that does not count, in s; "
+    "filters settle, too.  [default: until the recorded run has settled, by its parameters]",
 )
 @interval_option
 @speed_band_option
@@ -32,9 +32,8 @@ from .sensor_options import sensor_options
 def analyze(bags, settle, interval, speed_band, out, time, unit, sources):
     """Analyze bags or CSV files of samples: an HTML report, and the numbers as files.
 
-    RMS, ISO 2631-1 and absorbed power, by way and by speed, too; spectra, orders of the engine, mounts and currents:
-    report.html for the eye (of several bags a comparison), JSON, CSV and
-    Parquet for programs.
+    RMS, ISO 2631-1 and absorbed power, also by distance and by speed; spectra, engine orders, mounts and currents.
+    The report compares several recordings; JSON, CSV and Parquet files are for programs.
     """
     from ..bags.errors import BagError  # imported late: --help need not wait for it
     from .analyze import run_analyze

@@ -28,7 +28,7 @@ _ALIGNMENTS = ("auto", "speed", "distance", "none")
 @speed_band_option
 @click.option(
     "--settle",
-    type=FiniteRange(SHORTEST_SETTLING, 1e6),
+    type=FiniteRange(SHORTEST_SETTLING, 1e6, "s"),
     default=None,
     metavar="S",
     help=f"Time from the start of both recordings that does not count, in s, {SHORTEST_SETTLING:g} or more.  [default: "

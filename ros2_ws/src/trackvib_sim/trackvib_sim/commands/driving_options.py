@@ -2,18 +2,18 @@
 
 import click
 
-from ..nodes.loop_arguments import ARGUMENTS, default_of
+from ..nodes.loop_arguments import ARGUMENTS, SLOWEST_PHYSICS, default_of
 from ..vehicle.drive.limits import FASTEST
-from .option_types import FiniteRange
+from .option_types import FiniteRange, WholeRange, ZeroOr
 
 _SETTINGS = {
     "vehicle": {"metavar": "NAME|FILE"},
     "road": {"metavar": "CLASS|FILE"},
-    "speed": {"type": FiniteRange(-FASTEST, FASTEST)},
+    "speed": {"type": FiniteRange(-FASTEST, FASTEST, "m/s")},
     "drive": {"type": click.Path(exists=True, dir_okay=False)},
     "gears": {"is_flag": True},
-    "seed": {"type": click.IntRange(0, 10**9)},
-    "physics_rate": {"type": click.IntRange(0, 200_000)},
+    "seed": {"type": WholeRange(0, 10**9)},
+    "physics_rate": {"type": ZeroOr(SLOWEST_PHYSICS, 200_000, "Hz")},
 }
 
 

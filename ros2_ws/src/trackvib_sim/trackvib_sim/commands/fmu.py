@@ -7,7 +7,9 @@ from ..console import Terminal
 from ..data import find_vehicle
 from ..fmu.export import export
 from ..nodes.simulator_parameters import PARAMETERS
+from ..road.classes import CLASSES
 from ..road_sources.road_file import find_road, road_in_words, whole_name
+from ..road_sources.words import composition
 from ..vehicle.drive.drive_file import drive_text
 from ..vehicle.vehicle_file import read_vehicle
 from .result_folder import CommandError, whole_or_none
@@ -27,11 +29,12 @@ def run_fmu(out, vehicle, road, seed, speed, drive, gears, physics_rate):
     if file.suffix != ".fmu":
         raise CommandError(f"--out is {out!r}, must end in .fmu")
     parameters, text = read_vehicle(find_vehicle(vehicle))
-    find_road(road, 2.0 * parameters.road_wheels.y, seed)  # refused here, before any work
+    found = find_road(road, 2.0 * parameters.road_wheels.y, seed)  # refused here, before any work
     values = {parameter.name: parameter.default for parameter in PARAMETERS}
     values |= {"speed": speed, "gears": gears, "physics_rate": physics_rate}
     driven = f"{speed:g} m/s" if drive is None else f"drive {Path(drive).name}"
-    title = f"vehicle {parameters.name}, {road_in_words(road)}, seed {seed}, {driven}{' in gears' if gears else ''}"
+    name = f"{road_in_words(road, composition(found))}{f', seed {seed}' if road in CLASSES else ''}"
+    title = f"vehicle {parameters.name}, {name}, {driven}{' in gears' if gears else ''}"
     console = Terminal()
     console.print(f"FMU: {title}")
     with whole_or_none(file) as (draft,):

@@ -3,7 +3,7 @@
 from itertools import product
 
 import numpy as np
-from mr_mount_controller.node_base.plain_text import plain_line
+from mr_mount_controller.node_base.plain_text import plain_line, span
 from mr_mount_controller.node_base.suggestion import suggestion
 from rich.table import Table
 
@@ -49,7 +49,7 @@ def run_bench(name_or_file, mount, amplitudes, frequencies, currents, out):
         currents = CURRENTS if currents is None else currents
         for current in currents:
             if not low <= current <= high:
-                raise ValueError(f"--currents has {current:g} A, accepted are {low:g} to {high:g} A")
+                raise ValueError(f"--currents has {current:g} A, accepted: {span(low, high, 'A')}")
     else:
         if currents is not None:
             raise ValueError(f"mount {mount} is a rubber mount without a coil, omit --currents")

@@ -9,10 +9,10 @@ from .option_types import FiniteRange, Known, Several, vehicle_option
 from .verbs import Verbs
 
 
-def _numbers(name, default, low, high, words):
-    return click.option(
-        name, type=Several(FiniteRange(low, high)), default=default, show_default=True, metavar="X,X,...", help=words
-    )
+def _numbers(name, default, low, high, unit, words):
+    kind = Several(FiniteRange(low, high, unit))
+    words = words.format(each=kind.each)
+    return click.option(name, type=kind, default=default, show_default=True, metavar="X,X,...", help=words)
 
 
 _OUT = click.option(
@@ -27,9 +27,9 @@ _OUT = click.option(
 @click.group(cls=Verbs, invoke_without_command=True)
 @vehicle_option
 @click.option("--mount", default=None, help="Name of the mount.  [default: the vehicle's first]")
-@_numbers("--amplitudes", "0.2,1,3", 1e-3, 50.0, "Amplitudes in mm.")
-@_numbers("--frequencies", "1,8.7,30", 1e-3, 500.0, "Frequencies in Hz.")
-@_numbers("--currents", None, 0.0, 20.0, "Constant currents in A.  [default: 0,1,2,4 for a mount with a coil]")
+@_numbers("--amplitudes", "0.2,1,3", 1e-3, 50.0, "mm", "Amplitudes, {each}.")
+@_numbers("--frequencies", "1,8.7,30", 1e-3, 500.0, "Hz", "Frequencies, {each}.")
+@_numbers("--currents", None, 0.0, 20.0, "A", "Constant currents, {each}.  [default: 0,1,2,4 for a mount with a coil]")
 @_OUT
 @click.pass_context
 def mount(context, **choices):
@@ -59,7 +59,7 @@ def mount(context, **choices):
 )
 @click.option(
     "--carried-mass",
-    type=FiniteRange(1.0, 1e6),
+    type=FiniteRange(1.0, 1e6, "kg"),
     default=1000.0,
     show_default=True,
     help="Mass in kg to which the damping ratio refers.",

@@ -3,20 +3,48 @@
 from math import isfinite
 
 import click
+from mr_mount_controller.node_base.plain_text import number, span
 from mr_mount_controller.node_base.suggestion import suggestion
 
 from ..bags.limits import LARGEST_CHUNKS, largest_chunk
 from ..data import DEFAULT_VEHICLE
 
 
-class FiniteRange(click.FloatRange):
+class _InWords:
+    """A range with both bounds that help and errors tell in words, with its unit."""
+
+    def __init__(self, low, high, unit="", **ends):
+        super().__init__(low, high, **ends)
+        self.unit = unit
+
+    def _describe_range(self):
+        if self.min_open:
+            return f"above {number(self.min)}, up to {number(self.max)} {self.unit}".rstrip()
+        return span(self.min, self.max, self.unit)
+
+
+class FiniteRange(_InWords, click.FloatRange):
     """A range of floats, to which "nan" does not belong (to click's own it does)."""
 
     def convert(self, value, param, ctx):
-        number = super().convert(value, param, ctx)
-        if not isfinite(number):
+        given = super().convert(value, param, ctx)
+        if not isfinite(given):
             self.fail(f"{value} is not in the range {self._describe_range()}.", param, ctx)
-        return number
+        return given
+
+
+class WholeRange(_InWords, click.IntRange):
+    """A range of whole numbers."""
+
+
+class ZeroOr(WholeRange):
+    """A range of whole numbers, or 0, which stands for something else."""
+
+    def convert(self, value, param, ctx):
+        return 0 if value in (0, "0") else super().convert(value, param, ctx)
+
+    def _describe_range(self):
+        return f"0, or {super()._describe_range()}"
 
 
 class Known(click.Choice):
@@ -33,6 +61,11 @@ class Several(click.ParamType):
         self.item = item
         self.name = f"{item.name},..."
 
+    @property
+    def each(self):
+        """What each number may be, in words; of a range."""
+        return f"each {self.item._describe_range()}"
+
     def convert(self, value, param, ctx):
         parts = value.split(",") if isinstance(value, str) else value
         return tuple(sorted({self.item.convert(part, param, ctx) for part in parts}))
@@ -43,7 +76,7 @@ def largest_chunk_option(command):
     low, high = LARGEST_CHUNKS
     return click.option(
         "--largest-chunk",
-        type=click.IntRange(low, high),
+        type=WholeRange(low, high, "MiB"),
         default=largest_chunk.get(),
         show_default=True,
         metavar="MIB",

@@ -17,7 +17,7 @@ def own_domain(namespace="/"):
 
     domain = os.environ.get("ROS_DOMAIN_ID") or "0"
     if not (domain.isdecimal() and int(domain) <= HIGHEST_DOMAIN):
-        raise CommandError(f"ROS_DOMAIN_ID is {domain!r}, accepted is a whole number from 0 to {HIGHEST_DOMAIN}")
+        raise CommandError(f"ROS_DOMAIN_ID is {domain!r}, accepted: a whole number from 0 to {HIGHEST_DOMAIN}")
     where = f"in ROS domain {domain}" + ("" if namespace == "/" else f" and namespace {namespace}")
     taken = CommandError(f"a simulator is already running {where}; set another ROS_DOMAIN_ID or --namespace")
     # a name that the kernel frees with the process, however that ends; it takes no long ones

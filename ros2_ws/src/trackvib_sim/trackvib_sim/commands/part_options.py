@@ -1,4 +1,4 @@
-"""The options that divide a drive into parts, by its way and by its speed; shared by all verbs that measure."""
+"""The options that divide a drive into parts, by distance and by speed; shared by all verbs that measure."""
 
 import click
 
@@ -7,7 +7,7 @@ from .option_types import FiniteRange
 
 interval_option = click.option(
     "--interval",
-    type=FiniteRange(1.0, 1e6),
+    type=FiniteRange(1.0, 1e6, "m"),
     default=INTERVAL,
     metavar="M",
     show_default=True,
@@ -15,7 +15,7 @@ interval_option = click.option(
 )
 speed_band_option = click.option(
     "--speed-band",
-    type=FiniteRange(0.1, 1e3),
+    type=FiniteRange(0.1, 1e3, "m/s"),
     default=SPEED_BAND,
     metavar="V",
     show_default=True,

@@ -7,12 +7,14 @@ import numpy as np
 from rich.table import Table
 
 from ..console import Terminal
+from ..road.obstacles import ObstacleRoad
 from ..road.profile import ProfileRoad
 from ..road_sources.crg import write_crg
 from ..road_sources.csv_profile import write_csv_profile
 from ..road_sources.measures import measures
 from ..road_sources.picture import road_picture
 from ..road_sources.road_file import find_road, road_in_words
+from ..road_sources.words import before, composition
 from .result_folder import whole_or_none
 
 SHORTEST_LOOK = 10.0  # m
@@ -35,7 +37,7 @@ def run_road(text, seed, length, begin, tread, csv, crg, out):
     length = min(length, max(road.ends - start, SHORTEST_LOOK))
     first, count = round(start / road.spacing), round(length / road.spacing) + 1
     if count > MOST:
-        raise ValueError(f"--length {length:g} m are {count} samples of {road.spacing:g} m, accepted are {MOST}")
+        raise ValueError(f"--length {length:g} m are {count} samples of {road.spacing:g} m, accepted: {MOST}")
     heights = road.heights(first, count)
     distance = road.spacing * np.arange(first, first + count)
     paths = [Path(path) for path in (out, csv, crg) if path is not None]
@@ -49,7 +51,10 @@ def run_road(text, seed, length, begin, tread, csv, crg, out):
         if crg is not None:
             write_crg(written[Path(crg)], road.spacing, heights, tread, float(distance[0]))
     console = Terminal()
-    console.print(_table(heights, road, f"{road_in_words(text)}, {distance[0]:g} to {distance[-1]:g} m"))
+    name = road_in_words(text, composition(road))
+    console.print(_table(heights, road, f"{name}, {distance[0]:g} to {distance[-1]:g} m"))
+    if sentence := before(road):
+        console.print(sentence, soft_wrap=True)
     ground = getattr(road, "ground", road)  # under obstacles
     taken = "interpolated linearly, " if isinstance(ground, ProfileRoad) and not ground.even else ""
     bridged = "; shoes bridge anything shorter than a link" if road.spacing < SHORTEST else ""
@@ -66,5 +71,7 @@ def _table(heights, road, title):
         numbers = 1e6 * found.level, found.waviness, found.iri, 1e3 * found.rms
         cells = (f"{number:.3g}" if np.isfinite(number) else "-" for number in numbers)
         low, high = 1e3 * values.min(), 1e3 * values.max()
-        table.add_row(side, found.road_class or "-", *cells, f"{low:.0f} to {high:.0f}")
+        # of a random road with obstacles the title tells the class of the ground
+        road_class = "" if isinstance(road, ObstacleRoad) else found.road_class
+        table.add_row(side, road_class or "-", *cells, f"{low:.0f} to {high:.0f}")
     return table

@@ -3,23 +3,27 @@
 import click
 
 from .endings import fail
-from .option_types import FiniteRange
+from .option_types import FiniteRange, WholeRange
 
 
 @click.command()
 @click.argument("road")
-@click.option("--seed", type=click.IntRange(0, 10**9), default=1, show_default=True, help="Seed of a class.")
+@click.option("--seed", type=WholeRange(0, 10**9), default=1, show_default=True, help="Seed of a class.")
 @click.option(
-    "--length", type=FiniteRange(10.0, 1e5), default=500.0, show_default=True, help="Length in m to evaluate."
+    "--length", type=FiniteRange(10.0, 1e5, "m"), default=500.0, show_default=True, help="Length in m to evaluate."
 )
 @click.option(
     "--begin",
-    type=FiniteRange(-1e6, 1e6),
+    type=FiniteRange(-1e6, 1e6, "m"),
     default=None,
     help="Start of the evaluated part in m.  [default: start of the road]",
 )
 @click.option(
-    "--tread", type=FiniteRange(0.1, 10.0), default=2.8, show_default=True, help="Distance between the tracks in m."
+    "--tread",
+    type=FiniteRange(0.1, 10.0, "m"),
+    default=2.8,
+    show_default=True,
+    help="Distance between the tracks.",
 )
 @click.option(
     "--csv",

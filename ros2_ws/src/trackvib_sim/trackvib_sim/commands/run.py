@@ -15,6 +15,7 @@ from ..bags.errors import BagError
 from ..console import Description, Terminal
 from ..nodes.loop_arguments import RECORDER, SIMULATOR
 from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses
+from ..vehicle.plausibility import doubts
 from ..vehicle.step_size import recommended_rate
 from .own_domain import own_domain
 from .result_folder import CommandError, Refused, all_or_nothing
@@ -49,7 +50,7 @@ def run_loop(choosing, out, viewing=lambda _choices, _vehicle: nullcontext()):
             parameters.give(RECORDER, bag=str(folder / "bag"))
             parameters.give(SIMULATOR, wait_for_view=choices.view)
             console.print(f"closed loop: {choices.title}")
-            for note in parameters.notes:
+            for note in (*parameters.notes, *_doubts(vehicle)):
                 console.print(f"warning: {note}", soft_wrap=True)
             if choices.physics_rate < (least := recommended_rate(vehicle)):
                 console.print(f"warning: --physics-rate {choices.physics_rate} is below the recommended {least} Hz")
@@ -73,6 +74,14 @@ def _worth_keeping(folder, error):
         what = str(damage)
     error.args = (f"kept in {folder}: {', '.join(sorted(path.name for path in folder.iterdir()))}; {what}",)
     return True
+
+
+def _doubts(vehicle):
+    """Return what is not plausible in a vehicle; of one that cannot stand why, which the simulator judges."""
+    try:
+        return doubts(vehicle)
+    except ValueError as error:
+        return [str(error)]
 
 
 def _measure(choices, settling, folder, console, interrupt):

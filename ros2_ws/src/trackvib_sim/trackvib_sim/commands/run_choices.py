@@ -8,12 +8,13 @@ from mr_mount_controller.laws import find_law
 from mr_mount_controller.laws.running import make_law
 from mr_mount_controller.node_base.parameters import ParameterError
 
-from ..analysis.segments import SHORTEST_MEASURING
-from ..analysis.settling import SHORTEST_SETTLING, VEHICLE_BEHIND, settling_time
+from ..analysis.settling import SHORTEST_MEASURING, SHORTEST_SETTLING, VEHICLE_BEHIND, settling_time
 from ..nodes.loop_arguments import CONTROLLER, ROAD, SIMULATOR, loop_parameters
 from ..nodes.node_parameters import full_namespace
 from ..nodes.simulator_parameters import PARAMETERS, physics_rate
+from ..road.classes import CLASSES
 from ..road_sources.road_file import RoadError, find_road, road_in_words
+from ..road_sources.words import composition
 from ..vehicle.drive.drive_file import DriveFileError, drive_text, parse_drive
 from ..vehicle.drive.schedule import arrival_time
 from ..vehicle.vehicle_file import VehicleFileError
@@ -26,12 +27,13 @@ class Choices:
 
     vehicle: str | None  # name or file; None for the default one
     road: str  # class, or file
+    road_consists_of: str  # in words
     speed: float
     drive: str | None  # file; then `speed` has no effect
     gears: bool
     duration: float
     law: str
-    seed: int
+    seed: int | None  # of a road that is a class
     physics_rate: int  # Hz
     one_process: bool
     namespace: str  # full name
@@ -43,9 +45,11 @@ class Choices:
         """The run in words."""
         vehicle = f"vehicle {self.vehicle}, " if self.vehicle else ""
         drive = f"{self.speed:g} m/s" if self.drive is None else f"drive {Path(self.drive).name}"
-        road = f"{road_in_words(self.road)}, {drive}{' in gears' if self.gears else ''}"
+        name = road_in_words(self.road, self.road_consists_of)
+        road = f"{name}, {drive}{' in gears' if self.gears else ''}"
+        seed = "" if self.seed is None else f", seed {self.seed}"
         space = "" if self.namespace == "/" else f", namespace {self.namespace}"
-        return f"{vehicle}{road}, law {self.law}, seed {self.seed}, {self.duration:g} s{space}"
+        return f"{vehicle}{road}, law {self.law}{seed}, {self.duration:g} s{space}"
 
 
 def choose(given, files, namespace, one_process, view):
@@ -69,12 +73,15 @@ def choose(given, files, namespace, one_process, view):
     try:
         parameters, vehicle = loop_parameters(given, files, full_namespace(namespace))
         own = {each.name: each.check(parameters.get(SIMULATOR, each.name, each.default)) for each in PARAMETERS}
+        name = given.get("road") or str(parameters.get(ROAD, "road"))
+        road = find_road(name, 2.0 * vehicle.road_wheels.y)
         choices = Choices(
             vehicle=given.get("vehicle") or own["vehicle_file"] or None,
-            road=given.get("road") or str(parameters.get(ROAD, "road")),
+            road=name,
+            road_consists_of=composition(road),
             drive=given.get("drive") or own["drive"] or None,
             law=str(parameters.get(CONTROLLER, "law")),
-            seed=parameters.get(ROAD, "seed"),
+            seed=parameters.get(ROAD, "seed") if name in CLASSES else None,
             one_process=one_process,
             namespace=parameters.namespace,
             view=view,
@@ -82,7 +89,7 @@ def choose(given, files, namespace, one_process, view):
             **{name: own[name] for name in ("speed", "gears", "duration", "measure_rate")},
         )
         _make_law(choices.law, parameters)
-        settling = _settling(choices, find_road(choices.road, 2.0 * vehicle.road_wheels.y).begins)
+        settling = _settling(choices, road.begins)
     except (ParameterError, RoadError, DriveFileError, VehicleFileError) as error:
         raise CommandError(str(error)) from None
     if choices.duration < settling + SHORTEST_MEASURING:

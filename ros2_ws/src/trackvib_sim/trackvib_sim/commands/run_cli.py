@@ -4,20 +4,21 @@ import sys
 
 import click
 
+from ..analysis.settling import SHORTEST_MEASURING, SHORTEST_SETTLING
 from .driving_options import driving_options, loop_option
 from .endings import fail
-from .option_types import FiniteRange, law_option
+from .option_types import FiniteRange, WholeRange, law_option
 
 
 @click.command()
 @driving_options
-@loop_option("duration", type=FiniteRange(0.1, 3600.0))
+@loop_option("duration", type=FiniteRange(SHORTEST_SETTLING + SHORTEST_MEASURING, 3600.0, "s"))
 @loop_option("law", law_option)
 @loop_option("law_parameters", metavar="NAME=VALUE,...")
-@loop_option("control_rate", type=click.IntRange(10, 10_000))
-@loop_option("measure_rate", type=click.IntRange(0, 1000), metavar="HZ")
-@loop_option("realtime_priority", type=click.IntRange(0, 99))
-@loop_option("core", type=click.IntRange(-1, 1023))
+@loop_option("control_rate", type=WholeRange(10, 10_000, "Hz"))
+@loop_option("measure_rate", type=WholeRange(0, 1000, "Hz"), metavar="HZ")
+@loop_option("realtime_priority", type=WholeRange(0, 99))
+@loop_option("core", type=WholeRange(-1, 1023))
 @click.option(
     "--params-file",
     "files",

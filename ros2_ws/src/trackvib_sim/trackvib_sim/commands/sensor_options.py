@@ -85,7 +85,7 @@ def _sources(chassis, powertrain, further, rotate, gravity, csv_columns):
         name, equals, topic = word.partition("=")
         if not (equals and topic and name.isidentifier()):
             raise SourceError(
-                f"--sensor is {word!r}, accepted is NAME=TOPIC, where NAME consists of letters, digits and _"
+                f"--sensor is {word!r}, accepted: NAME=TOPIC, where NAME consists of letters, digits and _"
             )
         if name in named:
             raise SourceError(f"--sensor: {name!r} is given twice, must be given once")
@@ -97,7 +97,7 @@ def _sources(chassis, powertrain, further, rotate, gravity, csv_columns):
     for word in filter(None, csv_columns.split(",")):
         column, equals, name = word.partition("=")
         if not (equals and column.strip() and name.strip()):
-            raise SourceError(f"--csv has {word!r}, accepted is COLUMN_UNIT=NAME, separated by commas, like time_s=t")
+            raise SourceError(f"--csv has {word!r}, accepted: COLUMN_UNIT=NAME, separated by commas, like time_s=t")
         columns[column.strip().lower()] = name.strip()
     return Sources(named, rotations, gravity, columns)
 
@@ -109,5 +109,5 @@ def _rotation(word):
     except ValueError:
         angles = ()
     if len(angles) != 3 or not all(map(isfinite, angles)):
-        raise SourceError(f"--rotate is {word!r}, accepted is ROLL,PITCH,YAW in degrees, like 0,0,90, or NAME=0,0,90")
+        raise SourceError(f"--rotate is {word!r}, accepted: ROLL,PITCH,YAW in degrees, like 0,0,90, or NAME=0,0,90")
     return name, angles

@@ -9,7 +9,7 @@ import click
 from ..road.classes import CLASSES
 from ..vehicle.drive.limits import FASTEST
 from .endings import INTERRUPTED, fail, say
-from .option_types import FiniteRange, Known, Several, vehicle_option
+from .option_types import FiniteRange, Known, Several, WholeRange, vehicle_option
 from .result_folder import remove_if_empty
 from .verbs import Verbs
 
@@ -57,8 +57,8 @@ def _out(default, words="Folder of the study; finished runs in it are reused."):
 
 def _speeds(default):
     """The option for the speeds of a study's runs."""
-    kind = Several(FiniteRange(0.0, FASTEST, min_open=True))
-    words = "Speeds in m/s."
+    kind = Several(FiniteRange(0.0, FASTEST, "m/s", min_open=True))
+    words = f"Speeds, {kind.each}."
     return click.option("--speeds", type=kind, default=default, show_default=True, metavar="V,V,...", help=words)
 
 
@@ -74,7 +74,7 @@ def _speeds(default):
 @_speeds("5,10,20")
 @click.option(
     "--seeds",
-    type=click.IntRange(1, 1000),
+    type=WholeRange(1, 1000),
     default=3,
     show_default=True,
     help="Runs per class and speed, each with its own road and track phase.",
@@ -120,7 +120,7 @@ def figures(vehicle, scheduler, out):
 )
 @click.option(
     "--seeds",
-    type=click.IntRange(1, 1000),
+    type=WholeRange(1, 1000),
     default=8,
     show_default=True,
     help="Runs per law and random scenario, each with its own road and track phase.",
@@ -144,7 +144,7 @@ def controllers(laws, scenarios, seeds, vehicle, scheduler, out):
 @study.command()
 @click.option(
     "--generations",
-    type=click.IntRange(1, 100000),
+    type=WholeRange(1, 100000),
     default=None,
     help="Total number of generations of the search, including those already done.  [default: the plan's]",
 )
@@ -175,7 +175,7 @@ def calibrate(generations, plan, without, vehicle, scheduler, out):
 @study.command()
 @click.option(
     "--phases",
-    type=click.IntRange(1, 100),
+    type=WholeRange(1, 100),
     default=4,
     show_default=True,
     help="Runs per case, each with its own phase between the two tracks; variants use half of them.",

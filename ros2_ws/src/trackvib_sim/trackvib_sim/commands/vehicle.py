@@ -17,6 +17,7 @@ from ..drawings.assembled_vehicle import assemble_vehicle
 from ..drawings.vehicle_table import Figure, Parameter, figures, parameters
 from ..vehicle.body_tree import FRONT, drive_end
 from ..vehicle.parameters import Vehicle
+from ..vehicle.plausibility import doubts
 from ..vehicle.vehicle_file import read_vehicle
 from .result_folder import whole_or_none
 
@@ -42,6 +43,8 @@ def run_vehicle(name_or_file, picture):
     out.print(f"vehicle: {path}", soft_wrap=True)  # as the title of a table it would be broken in its middle
     for table in tables:
         out.print(table)
+    for doubt in doubts(vehicle):
+        out.print(f"warning: {doubt}", soft_wrap=True)
     from ..drawings.vehicle_picture import vehicle_picture  # imported late: the tables are there already
 
     with whole_or_none(Path(picture)) as (file,):

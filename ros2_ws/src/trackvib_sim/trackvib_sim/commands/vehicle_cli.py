@@ -9,11 +9,11 @@ from .option_types import FiniteRange, vehicle_option
 @click.command()
 @vehicle_option
 @click.option(
-    "--current", type=FiniteRange(0.0, 10.0), default=1.0, show_default=True, help="Current of all coils in A."
+    "--current", type=FiniteRange(0.0, 10.0, "A"), default=1.0, show_default=True, help="Current of all coils in A."
 )
 @click.option(
     "--highest",
-    type=FiniteRange(0.1, 1000.0),
+    type=FiniteRange(0.1, 1000.0, "Hz"),
     default=100.0,
     show_default=True,
     help="Highest frequency in the table, in Hz.",

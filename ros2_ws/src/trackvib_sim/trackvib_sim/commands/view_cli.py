@@ -3,7 +3,7 @@
 import click
 
 from .endings import fail
-from .option_types import FiniteRange, largest_chunk_option
+from .option_types import FiniteRange, WholeRange, largest_chunk_option
 
 
 @click.command()
@@ -23,13 +23,13 @@ from .option_types import FiniteRange, largest_chunk_option
 )
 @click.option(
     "--rate",
-    type=FiniteRange(1.0, 1000.0),
+    type=FiniteRange(1.0, 1000.0, "Hz"),
     default=None,
     help="Frames per second of simulated time.  [default: 50, in a picture 12.5]",
 )
-@click.option("--start", type=FiniteRange(0.0, 1e6), default=0.0, show_default=True, help="Start time in s.")
-@click.option("--end", type=FiniteRange(0.0, 1e6), default=None, help="End time in s.  [default: end of the bag]")
-@click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port to serve on.  [default: a free one]")
+@click.option("--start", type=FiniteRange(0.0, 1e6, "s"), default=0.0, show_default=True, help="Start time in s.")
+@click.option("--end", type=FiniteRange(0.0, 1e6, "s"), default=None, help="End time in s.  [default: end of the bag]")
+@click.option("--port", type=WholeRange(0, 65535), default=0, help="Port to serve on.  [default: a free one]")
 def view(bag, save, gif, rate, start, end, port):
     """Show a recorded run in a browser on this machine: the vehicle moving on its road, with curves beside it.
 

@@ -1,17 +1,17 @@
 """A vehicle's parameters with their sources, and what follows from them, as rows of tables."""
 
 import re
-from math import pi
+from math import degrees, pi
 from typing import NamedTuple
 
 from ..scene.teeth import half_gap
 from ..vehicle.mount_loads import loads_at_rest
+from ..vehicle.standing import standing
 from ..vehicle.step_size import fastest_contact, longest_step, recommended_rate
 from ..vehicle.tracks.layout import sink
 from ..yaml_text import load
 from .assembled_vehicle import assemble_vehicle
 from .sprocket_drawing import free_entry
-from .standing_vehicle import standing_loads
 
 SPEEDS = (5.0, 10.0, 20.0)  # m/s, those of [Tao2025]
 
@@ -83,7 +83,15 @@ def _masses(assembled):
 
 
 def _loads(vehicle):
-    loads, trimmed = standing_loads(vehicle), loads_at_rest(vehicle)
+    loads, trimmed = standing(vehicle), loads_at_rest(vehicle)
+    yield "static sag", f"{1e3 * loads.sag:.1f}", "mm", "of the hull at rest below its static ride height"
+    yield "static pitch", f"{degrees(loads.pitch) + 0.0:.2f}", "deg", "of the hull at rest, nose up"
+    deflections = _by_side([[f"{1e3 * each:.0f}" for each in side] for side in loads.deflection])
+    yield "static deflection of the torsion bars", deflections, "mm", "at the wheels, from front to rear"
+    shares = _by_side(
+        [[f"{100.0 * each:.0f}" for each in side] for side in loads.share(vehicle.swing_arms.bump_travel)]
+    )
+    yield "share of the wheel travel", shares, "%", "at rest, from unloaded bars to the bump stops"
     wheels = _by_side([[f"{1e-3 * load:.1f}" for load in side] for side in loads.wheel])
     yield "loads of the road wheels", wheels, "kN", "at rest, from front to rear"
     yield "compression of the tyres", f"{1e3 * sink(vehicle):.1f}", "mm", "under equal shares of the bodies' weight"

@@ -116,7 +116,7 @@ class VehicleSlave(Fmi2Slave):
         periods = round(wanted)
         if periods < 1 or abs(wanted - periods) > _NEAR:
             period = self._simulation.settings.rates.period / NANO
-            return self._refuse(f"step is {step_size:g} s, accepted are multiples of the control period, {period:g} s")
+            return self._refuse(f"step is {step_size:g} s, accepted: multiples of the control period, {period:g} s")
         if not all(map(isfinite, self._currents)):
             return self._refuse(f"coil_current is {self._currents.tolist()}, must be finite")
         try:

@@ -67,7 +67,7 @@ class MountsEnv(gymnasium.Env):
 
     def __init__(self, vehicle=None, road="E", render_mode=None, **parameters):
         if render_mode is not None:
-            raise ValueError(f"render_mode is {render_mode!r}, accepted is None; `trackvib view` shows bags of runs")
+            raise ValueError(f"render_mode is {render_mode!r}, accepted: None; `trackvib view` shows bags of runs")
         if unknown := parameters.keys() - set(OF_THE_DRIVE):
             meant = suggestion(min(unknown), OF_THE_DRIVE)
             known = f"known are {', '.join(OF_THE_DRIVE)}{meant}"
@@ -149,11 +149,11 @@ class MountsEnv(gymnasium.Env):
         try:
             numbers = np.array(action, np.float32)
         except (TypeError, ValueError):
-            raise ValueError(f"action is {action!r}, accepted are numbers from -1 to 1") from None
+            raise ValueError(f"action is {action!r}, accepted: numbers from -1 to 1") from None
         if numbers.shape != self.action_space.shape:
-            raise ValueError(f"action has shape {numbers.shape}, accepted is {self.action_space.shape}, one per coil")
+            raise ValueError(f"action has shape {numbers.shape}, accepted: {self.action_space.shape}, one per coil")
         if not np.isfinite(numbers).all():
-            raise ValueError(f"action is {action!r}, accepted are finite numbers from -1 to 1")
+            raise ValueError(f"action is {action!r}, accepted: finite numbers from -1 to 1")
         return np.minimum(np.maximum(numbers, -1.0), 1.0)
 
     def _road_seed(self, options):
@@ -167,7 +167,7 @@ class MountsEnv(gymnasium.Env):
         except TypeError:
             seed = -1
         if not 0 <= seed <= HIGHEST_SEED:
-            raise ValueError(f"option 'road_seed' is {given!r}, accepted is a whole number from 0 to {HIGHEST_SEED}")
+            raise ValueError(f"option 'road_seed' is {given!r}, accepted: a whole number from 0 to {HIGHEST_SEED}")
         return seed
 
     def _advance(self, currents):

@@ -38,7 +38,7 @@ def read_loops(path):
     """
     size = Path(path).stat().st_size
     if size > LARGEST:
-        raise LoopsFileError(f"has {size / 1e6:.0f} MB, accepted are {LARGEST / 1e6:.0f} MB")
+        raise LoopsFileError(f"has {size / 1e6:.0f} MB, accepted: {LARGEST / 1e6:.0f} MB")
     with Path(path).open(newline="", encoding="utf-8", errors="replace") as file:
         try:
             rows = list(_rows(csv.reader(file)))
@@ -47,7 +47,7 @@ def read_loops(path):
     values = np.array(rows).reshape(-1, len(COLUMNS))
     begins = np.flatnonzero((np.diff(values[:, 3]) != 0.0) | (np.diff(values[:, 0]) < 0.0)) + 1
     if len(begins) >= MOST_LOOPS:
-        raise LoopsFileError(f"has {len(begins) + 1} loops, accepted are {MOST_LOOPS}: the current changes too often")
+        raise LoopsFileError(f"has {len(begins) + 1} loops, accepted: {MOST_LOOPS}: the current changes too often")
     return [_loop(part) for part in np.split(values, begins)]
 
 
@@ -65,14 +65,14 @@ def _rows(lines):
         except (ValueError, IndexError):
             raise LoopsFileError(f"line {number}: must have a number in each of {', '.join(COLUMNS)}") from None
         if not np.isfinite(row).all():
-            raise LoopsFileError(f"line {number}: has {row}, accepted are finite numbers")
+            raise LoopsFileError(f"line {number}: has {row}, accepted: finite numbers")
         yield row
 
 
 def _loop(rows):
     time, displacement, force, current = rows.T
     if len(rows) < FEWEST_ROWS:
-        raise LoopsFileError(f"the loop at {current[:1]} A has {len(rows)} rows, accepted are {FEWEST_ROWS} or more")
+        raise LoopsFileError(f"the loop at {current[:1]} A has {len(rows)} rows, accepted: {FEWEST_ROWS} or more")
     if not (np.diff(time) > 0.0).all():
         raise LoopsFileError(f"the loop at {current[0]:g} A: time_s must rise from row to row")
     if not np.ptp(displacement) > 0.0:

@@ -13,6 +13,7 @@ from mr_mount_controller.node_base.parameters import ParameterError
 from ..data import DEFAULT_VEHICLE, find_vehicle
 
 SIMULATOR, ROAD, CONTROLLER, RECORDER = NODES = "simulator", "road_excitation", "controller", "recorder"
+SLOWEST_PHYSICS = 1000  # Hz, of the physics steps
 VIEW_RATE = 50  # Hz of simulated time
 
 
@@ -41,7 +42,7 @@ def _law_parameters(text):
     for word in text.split(","):
         name, equals, value = map(str.strip, word.partition("="))
         if not (equals and name and value):
-            raise ParameterError(f"law_parameters is {text!r}, accepted is NAME=VALUE, separated by commas")
+            raise ParameterError(f"law_parameters is {text!r}, accepted: NAME=VALUE, separated by commas")
         values[name] = _scalar(value, name)
     return {CONTROLLER: values}
 
@@ -72,7 +73,12 @@ ARGUMENTS = {
         "Derive engine speed from vehicle speed through the gears of the vehicle file.",
         _of((SIMULATOR, "gears")),
     ),
-    "duration": Argument(float, "10.0", "Simulated time in s.", _of((SIMULATOR, "duration"))),
+    "duration": Argument(
+        float,
+        "10.0",
+        "Simulated time in s, at least 1 s longer than the run settles, which at 10 m/s takes 2 s.",
+        _of((SIMULATOR, "duration")),
+    ),
     "law": Argument(str, "passive", "Control law", _of((CONTROLLER, "law"))),
     "law_parameters": Argument(
         str, "", "Parameters of the law, separated by commas, such as firm_current=2.5.", _law_parameters
@@ -174,7 +180,7 @@ def argument_from_text(name, text):
         value = float(value)
     if type(value) is not kind:
         words = {bool: "true or false", int: "a whole number", float: "a number"}[kind]
-        raise ParameterError(f"argument {name} is {text!r}, accepted is {words}")
+        raise ParameterError(f"argument {name} is {text!r}, accepted: {words}")
     return value
 
 

@@ -29,7 +29,7 @@ def full_namespace(name):
     """
     if not _NAMESPACE.fullmatch(name) or len(name) > _LONGEST:
         raise ParameterError(
-            f"namespace is {name!r}, accepted are at most {_LONGEST} letters, digits and _, in parts "
+            f"namespace is {name!r}, accepted: at most {_LONGEST} letters, digits and _, in parts "
             "separated by slashes that do not begin with a digit"
         )
     return f"/{name.lstrip('/')}"
@@ -71,12 +71,12 @@ class NodeParameters:
             raise ParameterError(str(error)) from None
         found = list(sections(tree)) if isinstance(tree, dict) else []
         if not found:
-            raise ParameterError(f"{name} has no section, accepted are 'NODE: ros__parameters: NAME: VALUE'")
+            raise ParameterError(f"{name} has no section, accepted: 'NODE: ros__parameters: NAME: VALUE'")
         for section, values in found:
             for parameter, value in values.items():
                 if not _is_value(value):
                     raise ParameterError(
-                        f"{name}: {parameter} of {section} is {value!r}, accepted is a number, a text in quotes, true, "
+                        f"{name}: {parameter} of {section} is {value!r}, accepted: a number, a text in quotes, true, "
                         "false, or a list of one of these"
                     )
             for node in self._values:

@@ -62,7 +62,7 @@ class PlayerNode(LoopNode):
         largest_chunk.set(self.settings["largest_chunk"])
         try:
             if not self.settings["bag"]:
-                raise ParameterError("player: parameter 'bag' is empty, accepted is the path of a bag")
+                raise ParameterError("player: parameter 'bag' is empty, accepted: the path of a bag")
             self._bag = OpenBag(self.settings["bag"], self._is_wanted)
         except BagError as error:
             raise NodeError(str(error)) from None
@@ -102,9 +102,9 @@ class PlayerNode(LoopNode):
         length = (last - first) / NANO
         start, end = self.settings["start"], self.settings["end"] or length
         if start > length:
-            raise ParameterError(f"player: parameter 'start' is {start} s, accepted is 0 to {length:g} s in this bag")
+            raise ParameterError(f"player: parameter 'start' is {start} s, accepted: 0 to {length:g} s in this bag")
         if not start <= end:
-            raise ParameterError(f"player: parameter 'end' is {end} s, accepted is 0 or from start, {start} s, on")
+            raise ParameterError(f"player: parameter 'end' is {end} s, accepted: 0 or from start, {start} s, on")
         return first + round(start * NANO), min(first + round(end * NANO), last)
 
     def _is_wanted(self, topic):
@@ -139,7 +139,7 @@ class PlayerNode(LoopNode):
     def _prepare_output(self, connection):
         """Make what plays a connection; raises ValueError or NameValidationException where nothing can."""
         if connection.encoding not in _PLAYED:
-            raise ValueError(f"its messages are in {connection.encoding!r}, accepted is cdr")
+            raise ValueError(f"its messages are in {connection.encoding!r}, accepted: cdr")
         kind = message_type(connection.type_name)
         renew = renewal(connection.schema, kind)
         output = self._outputs.get(connection.topic)

@@ -7,7 +7,7 @@ from mr_mount_controller.node_base.listener import Refused
 from mr_mount_controller.node_base.loop_node import LoopNode
 from mr_mount_controller.node_base.node_process import run_node
 from mr_mount_controller.node_base.parameters import Parameter, ParameterError
-from mr_mount_controller.node_base.plain_text import plain_line
+from mr_mount_controller.node_base.plain_text import plain_line, span
 from mr_mount_controller.node_base.qos import LATCHED_QOS, ROAD_QOS
 from mr_mount_controller.node_base.topics import DRIVE_STATE, ROAD_FRAME, ROAD_PROFILE
 from trackvib_msgs.msg import DriveState, RoadProfile
@@ -16,6 +16,7 @@ from ..road.classes import CLASSES
 from ..road.feeder import RoadFeeder
 from ..road.iso8608 import FADE, LEVEL_UNTIL, TREAD, Exponential, Iso8608Road, Isotropic
 from ..road_sources.road_file import RoadError, find_road
+from ..road_sources.words import composition
 
 PARAMETERS = (
     Parameter("road", "E", "ISO 8608 class, A to H, or a file: profile (CSV), OpenCRG, road file (YAML), or a bag."),
@@ -53,8 +54,10 @@ class RoadExcitationNode(LoopNode):
         begins = Parameter(
             "begins", float(self._road.begins), "Where the road proper begins; follows from the road.", "m"
         )
-        # for whoever analyses a bag: it says from where on all of the vehicle is on the road
-        self.declare_parameter(begins.name, begins.default, descriptor_of(begins, fixed=True), ignore_override=True)
+        consists_of = Parameter("consists_of", composition(self._road), "What the road is; follows from the road.")
+        # for whoever analyses a bag: what the road is, and from where on all of the vehicle is on it
+        for told in (begins, consists_of):
+            self.declare_parameter(told.name, told.default, descriptor_of(told, fixed=True), ignore_override=True)
         self._feeder = RoadFeeder(self._road, s["horizon"])
         self._last = (0, 0)  # stamp of the latest drive state, s and ns
         self._patches = self.create_publisher(RoadProfile, ROAD_PROFILE, ROAD_QOS)
@@ -64,7 +67,7 @@ class RoadExcitationNode(LoopNode):
     def _on_drive(self, drive):
         distance = drive.distance
         if not abs(distance) <= _FARTHEST:  # NaN is not either
-            raise Refused(f"distance is {distance} m, accepted is up to {_FARTHEST:g} m either way")
+            raise Refused(f"distance is {distance} m, accepted: {span(-_FARTHEST, _FARTHEST, 'm')}")
         stamp = (drive.header.stamp.sec, drive.header.stamp.nanosec)
         if stamp <= self._last:  # a new run, or a vehicle that asks again because it still has no road
             self._feeder = RoadFeeder(self._road, self.settings["horizon"])

@@ -17,8 +17,8 @@ from ..vehicle.drive.limits import FASTEST
 from ..vehicle.step_size import recommended_rate
 from ..vehicle.system import Operation
 from ..vehicle.vehicle_file import VehicleFileError, parse_vehicle, read_vehicle
+from .loop_arguments import SLOWEST_PHYSICS
 
-SLOWEST = 1000  # Hz, of the physics steps
 PARAMETERS = (
     Parameter("vehicle_file", "", "Vehicle file; empty for the default vehicle."),
     Parameter("drive", "", "Drive file: speed, path and engine speed over time or distance; empty for none."),
@@ -136,15 +136,15 @@ def simulation_of(vehicle, values, drive):
 def physics_rate(vehicle, values):
     """Return the rate of the physics steps [Hz] that parameter values ask for; raises `ParameterError`."""
     rate = values["physics_rate"]
-    if 0 < rate < SLOWEST:
-        raise ParameterError(f"parameter 'physics_rate' is {rate}, accepted is 0 or at least {SLOWEST} Hz")
+    if 0 < rate < SLOWEST_PHYSICS:
+        raise ParameterError(f"parameter 'physics_rate' is {rate}, accepted: 0 or at least {SLOWEST_PHYSICS} Hz")
     return rate or recommended_rate(vehicle, values["control_rate"])
 
 
 def _check_engine_speed(vehicle, item, value):
     low, high = vehicle.engine.speed_range
     if value != 0.0 and not low <= value <= high:
-        raise ParameterError(f"simulator: {item} is {value}, accepted is 0 or {low:g} to {high:g} r/min")
+        raise ParameterError(f"simulator: {item} is {value}, accepted: 0 or {low:g} to {high:g} r/min")
 
 
 def prepare_again(recording):

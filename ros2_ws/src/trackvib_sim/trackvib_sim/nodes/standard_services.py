@@ -164,7 +164,7 @@ class StandardServices:
         if not control.paused:
             return _failed("steps need a paused run")
         if count < 1:
-            return _failed(f"steps is {count}, accepted is a whole number from 1 on")
+            return _failed(f"steps is {count}, accepted: a whole number from 1 on")
         self._stopped, epoch = False, control.epoch
         for done in range(1, count + 1):
             last = control.periods
@@ -183,7 +183,7 @@ class StandardServices:
     async def _reset_simulation(self, request, response):
         if request.scope and request.scope & _TOGETHER != _TOGETHER:
             # a jump of one alone would tear path, drive and recording apart, and no replay could follow
-            told = f"scope is {request.scope}, accepted are 0, {_TOGETHER} and 255: time and state are reset together"
+            told = f"scope is {request.scope}, accepted: 0, {_TOGETHER} and 255: time and state are reset together"
             response.result = _failed(told, Result.RESULT_FEATURE_UNSUPPORTED)
         elif not self._control.begun:
             response.result = _failed("the run has not started", Result.RESULT_INCORRECT_STATE)

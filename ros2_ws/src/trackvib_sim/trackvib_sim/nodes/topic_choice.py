@@ -50,12 +50,12 @@ class TopicChoice:
         try:
             self.named = {node.resolve_topic_name(name) for name in names if name and validate_topic_name(name)}
         except InvalidTopicNameException as error:
-            raise ParameterError(f"recorder: parameter 'topics' is {names!r}, accepted are names: {error}") from None
+            raise ParameterError(f"recorder: parameter 'topics' is {names!r}, accepted: names; {error}") from None
         try:
             self._pattern = re.compile(pattern) if pattern else None
         except re.error as error:
             raise ParameterError(
-                f"recorder: parameter 'pattern' is {pattern!r}, accepted are regular expressions: {error}"
+                f"recorder: parameter 'pattern' is {pattern!r}, accepted: regular expressions; {error}"
             ) from None
         if not self.named and self._pattern is None:
             raise ParameterError(

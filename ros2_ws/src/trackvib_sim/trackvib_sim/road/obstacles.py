@@ -18,19 +18,21 @@ from .profile import HIGHEST_WALL
 
 FINE = 0.01  # m between samples of a road with obstacles
 
-Place = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]  # m
-Size = Annotated[float, Field(gt=0.0, le=1000.0, allow_inf_nan=False)]  # m
-Height = Annotated[float, Field(gt=0.0, le=3.0, allow_inf_nan=False)]  # m
-Wall = Annotated[float, Field(gt=0.0, le=HIGHEST_WALL, allow_inf_nan=False)]  # m
+Place = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False, json_schema_extra={"unit": "m"})]
+Size = Annotated[float, Field(gt=0.0, le=1000.0, allow_inf_nan=False, json_schema_extra={"unit": "m"})]
+Height = Annotated[float, Field(gt=0.0, le=3.0, allow_inf_nan=False, json_schema_extra={"unit": "m"})]
+Wall = Annotated[float, Field(gt=0.0, le=HIGHEST_WALL, allow_inf_nan=False, json_schema_extra={"unit": "m"})]
 
 
 class _Obstacle(BaseModel):
     """Begins at distance `at` [m] and is `end` long."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
 
     at: Place
+    """Distance at which it begins."""
     side: Literal["both", "left", "right"] = "both"
+    """Tracks under which it lies."""
 
     def heights(self, distance):
         """Return its height [m] at distances (n,) [m]; zero before and behind it."""
@@ -42,7 +44,9 @@ class HalfRound(_Obstacle):
     """Half a cylinder across the road."""
 
     shape: Literal["half_round"]
+    """Half a cylinder."""
     radius: Height
+    """Radius."""
 
     @property
     def end(self):
@@ -58,6 +62,7 @@ class _Lengthwise(_Obstacle):
     """Its length is given."""
 
     length: Size
+    """Length along the road."""
 
     @property
     def end(self):
@@ -81,7 +86,9 @@ class Step(_Lengthwise):
     """
 
     shape: Literal["step"]
+    """Up and down again."""
     height: Wall
+    """Height."""
 
     def shape_at(self, x):
         """Height [m] at distances from its beginning."""
@@ -92,7 +99,9 @@ class VRamp(_Lengthwise):
     """An inverted V: up over half its length, down over the other."""
 
     shape: Literal["v_ramp"]
+    """Up to the middle and down."""
     height: Height
+    """Height."""
 
     def shape_at(self, x):
         """Height [m] at distances from its beginning."""
@@ -103,8 +112,11 @@ class Trapezoid(_Lengthwise):
     """Up over a ramp, level, and down over another; `length` is all of it."""
 
     shape: Literal["trapezoid"]
+    """Up, level, down."""
     height: Height
+    """Height."""
     ramp: Size
+    """Length of each slope."""
 
     def shape_at(self, x):
         """Height [m] at distances from its beginning."""
@@ -115,9 +127,13 @@ class Sine(_Obstacle):
     """Waves, a washboard: `count` of them, `height` from trough to crest, beginning and ending in a trough."""
 
     shape: Literal["sine"]
+    """Washboard, from trough to crest."""
     height: Height
+    """Height from trough to crest."""
     wavelength: Size
+    """Length of a wave."""
     count: Annotated[int, Field(ge=1, le=100_000)] = 1
+    """Number of waves."""
 
     @property
     def end(self):
@@ -133,8 +149,11 @@ class Pothole(_Lengthwise):
     """A hole: down over a ramp, level, and up again; `length` is all of it."""
 
     shape: Literal["pothole"]
+    """Down, level, up."""
     depth: Height
+    """Depth."""
     ramp: Size = FINE
+    """Length of each slope."""
 
     def shape_at(self, x):
         """Height [m] at distances from its beginning, below zero."""

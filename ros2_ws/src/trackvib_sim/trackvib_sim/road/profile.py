@@ -10,7 +10,7 @@ FINEST, COARSEST = 1e-3, 1.0  # m between samples of a road
 MOST = 20_000_000  # samples of a profile
 STEEPEST = 20.0  # m/m; what rises more steeply is a wall
 HIGHEST_WALL = 1.2  # m, about what the best of battle tanks climb
-ROUGHEST = 2.0  # m up and down per metre of way; class H has 0.4, class A with its millimetres taken for metres 3
+ROUGHEST = 2.0  # m up and down per metre; class H has 0.4, class A with its millimetres taken for metres 3
 HIGHEST = 1000.0  # m
 _ROUNDING = 1e-9  # of distances
 _EVEN = 1e-3  # of the spacing: samples that are less far from their places are even
@@ -45,14 +45,12 @@ def checked(distance, heights, name):
     """
     distance, heights = np.asarray(distance, dtype=float), np.asarray(heights, dtype=float)
     if not 2 <= len(distance) <= MOST:
-        raise ProfileError(f"{name}: {len(distance)} samples, accepted are 2 to {MOST}")
+        raise ProfileError(f"{name}: {len(distance)} samples, accepted: 2 to {MOST}")
     sides = ("left", heights[0]), ("right", heights[1])
     for what, values in (("distance", distance), *((f"{side} height", values) for side, values in sides)):
         odd = np.flatnonzero(~np.isfinite(values))
         if odd.size:
-            raise ProfileError(
-                f"{name}: {what} of sample {odd[0] + 1} is {values[odd[0]]}, accepted are finite numbers"
-            )
+            raise ProfileError(f"{name}: {what} of sample {odd[0] + 1} is {values[odd[0]]}, accepted: finite numbers")
     with np.errstate(over="ignore"):  # infinite is too far as well
         step = np.diff(distance)
     _require_order(distance, step, name)
@@ -63,7 +61,7 @@ def checked(distance, heights, name):
     if not 2.0 <= count <= MOST + 1.0:
         raise ProfileError(
             f"{name}: {distance[-1] - distance[0]:g} m are {count:.0f} samples at the least distance between them, "
-            f"{spacing:g} m; accepted are 2 to {MOST}"
+            f"{spacing:g} m; accepted: 2 to {MOST}"
         )
     return Profile(distance, heights)
 
@@ -77,9 +75,7 @@ def _require_order(distance, step, name):
         )
     if step.max() > COARSEST * (1.0 + _ROUNDING):
         k = step.argmax()
-        raise ProfileError(
-            f"{name}: a gap of {step[k]:g} m from {distance[k]:g} m on, accepted are up to {COARSEST:g} m"
-        )
+        raise ProfileError(f"{name}: a gap of {step[k]:g} m from {distance[k]:g} m on, accepted: up to {COARSEST:g} m")
 
 
 def _require_ground(distance, step, values, side):
@@ -92,13 +88,12 @@ def _require_ground(distance, step, values, side):
         k = wall.argmax()
         raise ProfileError(
             f"{side} rises by {values[k + 1] - values[k]:g} m from {distance[k]:g} m on over {step[k]:g} m, "
-            f"accepted are {HIGHEST_WALL:g} m, or {STEEPEST:g} m/m; is the unit right?"
+            f"accepted: {HIGHEST_WALL:g} m, or {STEEPEST:g} m/m; is the unit right?"
         )
     roughness = rise.sum() / max(distance[-1] - distance[0], COARSEST)
     if roughness > ROUGHEST:
         raise ProfileError(
-            f"{side} goes up and down by {roughness:.3g} m per metre of way, accepted are {ROUGHEST:g}; "
-            "is the unit right?"
+            f"{side} goes up and down by {roughness:.3g} m per metre, accepted: up to {ROUGHEST:g}; is the unit right?"
         )
 
 

@@ -84,29 +84,29 @@ def _head(text, name):
         elif section == "$ROAD_CRG_FILE":
             raise ProfileError(f"{name} only refers to another file; give that file")
         elif section == "$ROAD_CRG_MODS" and "=" in line:
-            raise ProfileError(f"{name} has modifiers ($ROAD_CRG_MODS), accepted are files without; apply them first")
+            raise ProfileError(f"{name} has modifiers ($ROAD_CRG_MODS), accepted: files without; apply them first")
         elif section == "$ROAD_CRG" and "=" in line:
             key, value = line.split("=", 1)
             values[key.strip().lower()] = _number(value)
             if not np.isfinite(_number(value)):
                 shown = readable(shortened(line.strip()))
-                raise ProfileError(f"{name}: {shown!r} in $ROAD_CRG, accepted is NAME = NUMBER")
+                raise ProfileError(f"{name}: {shown!r} in $ROAD_CRG, accepted: NAME = NUMBER")
         elif section == "$KD_DEFINITION" and line.startswith("#:"):
             kind = line[2:].strip().upper()
         elif section == "$KD_DEFINITION" and line.startswith("D:"):
             channel, _, unit = (part.strip().lower() for part in line[2:].rpartition(","))
             if channel.startswith("long section") and unit != "m":
                 shown = readable(shortened(line[2:].strip()))
-                raise ProfileError(f"{name}: channel {shown!r}, accepted are heights in m")
+                raise ProfileError(f"{name}: channel {shown!r}, accepted: heights in m")
             channels.append(channel)
     if kind not in (*_TEXT, *_BINARY):
         accepted = ", ".join((*_TEXT, *_BINARY))
-        raise ProfileError(f"{name}: data are {readable(shortened(str(kind)))}, accepted are {accepted}")
+        raise ProfileError(f"{name}: data are {readable(shortened(str(kind)))}, accepted: {accepted}")
     if not 1 <= len(channels) <= _MOST_CHANNELS:
-        raise ProfileError(f"{name}: {len(channels)} channels, accepted are 1 to {_MOST_CHANNELS}")
+        raise ProfileError(f"{name}: {len(channels)} channels, accepted: 1 to {_MOST_CHANNELS}")
     if not values.get("reference_line_increment", 0.0) > 0.0:
         given = values.get("reference_line_increment")
-        raise ProfileError(f"{name}: REFERENCE_LINE_INCREMENT is {given}, accepted is a length in m")
+        raise ProfileError(f"{name}: REFERENCE_LINE_INCREMENT is {given}, accepted: a length in m")
     return _Head(values, channels, kind)
 
 
@@ -132,7 +132,7 @@ def _grid(data, head, name):
     else:
         grid = _text_grid(data, count, *_TEXT[head.kind], name)
     if not 2 <= len(grid) <= MOST:
-        raise ProfileError(f"{name}: {len(grid)} rows, accepted are 2 to {MOST}")
+        raise ProfileError(f"{name}: {len(grid)} rows, accepted: 2 to {MOST}")
     return grid
 
 
@@ -152,7 +152,7 @@ def _text_grid(data, count, width, on_line, name):
             numbers.extend([np.nan if cell.lstrip().startswith(b"*") else float(cell) for cell in cells])
         except ValueError:
             shown = readable(shortened(lines[first].decode("latin-1")))
-            raise ProfileError(f"{name}: row {first // deep + 1} begins {shown!r}, accepted are numbers") from None
+            raise ProfileError(f"{name}: row {first // deep + 1} begins {shown!r}, accepted: numbers") from None
     return np.array(numbers).reshape(-1, count)
 
 
@@ -198,7 +198,7 @@ def _require_straight(phi, values, name):
         turns = max(turns, abs(ends[1] - ends[0]))
     if turns > STRAIGHT:
         raise ProfileError(
-            f"{name} is a road with a curve, its heading changes by {turns:.3g} rad; accepted are straight ones "
+            f"{name} is a road with a curve, its heading changes by {turns:.3g} rad; accepted: straight ones "
             f"(up to {STRAIGHT:g} rad), curves are part of the drive"
         )
 

@@ -20,6 +20,8 @@ FITTED = 0.011, 2.83  # 1/m, the standard's range
 _BANDS = 3  # an octave, of the smoothed PSD
 _SEGMENT = 200.0  # m, of the PSD's windows where the road is long enough
 _FEWEST_BANDS = 4
+_OFF_LINE = 6.0  # dB RMS of the third octaves about their line: random roads of 100 m or more stay within 5
+_OF_STANDARD = 1.5, 2.5  # waviness, of roads that the classes of the standard are for; theirs is 2
 
 
 class Measures(NamedTuple):
@@ -27,16 +29,18 @@ class Measures(NamedTuple):
 
     rms: float  # m, of the heights about their straight line
     iri: float  # m/km; not a number of a road shorter than the first state needs
-    level: float  # G_d(n0) of the fitted line, m^3; not a number where the PSD has too few bands
+    level: float  # G_d(n0) of the fitted line, m^3; not a number where the PSD has too few bands or is no line
     waviness: float
-    road_class: str  # by the standard's limits of G_d(n0); empty where there is no level
+    road_class: str  # by the standard's limits of G_d(n0); empty of a road whose PSD is not like the standard's
 
 
 def measures(heights, spacing):
     """Return the `Measures` of heights (n,) [m] that are `spacing` [m] apart."""
     line = signal.detrend(heights)
     level, waviness = _fitted(heights, spacing)
-    return Measures(float(np.sqrt(np.mean(line**2))), roughness_index(heights, spacing), level, waviness, _class(level))
+    of_standard = _OF_STANDARD[0] <= waviness <= _OF_STANDARD[1]
+    road_class = _class(level) if of_standard else ""
+    return Measures(float(np.sqrt(np.mean(line**2))), roughness_index(heights, spacing), level, waviness, road_class)
 
 
 def psd(heights, spacing):
@@ -57,13 +61,13 @@ def smoothed(heights, spacing):
 
 
 def roughness_index(heights, spacing):
-    """Return the IRI [m/km]: the golden car's suspension motion at 80 km/h over the way, [Sayers1995]."""
+    """Return the IRI [m/km]: the golden car's suspension motion at 80 km/h over the road, [Sayers1995]."""
     if len(heights) * spacing < 2.0 * _SMOOTH:
         return np.nan
     window = max(round(_TYRE_LENGTH / spacing), 1)
     smooth = np.convolve(heights, np.full(window, 1.0 / window), mode="valid")
     slope = np.diff(smooth) / spacing
-    # states: slopes of sprung and unsprung mass's heights, and their rates, per metre of way
+    # states: slopes of sprung and unsprung mass's heights, and their rates, per metre driven
     a = np.array(
         [
             [0.0, 1.0, 0.0, 0.0],
@@ -83,7 +87,11 @@ def _fitted(heights, spacing):
     centre, density = smoothed(heights, spacing)
     if len(centre) < _FEWEST_BANDS:
         return np.nan, np.nan
-    waviness, level = np.polyfit(np.log(centre / REFERENCE_FREQUENCY), np.log(density), 1)
+    along = np.log(centre / REFERENCE_FREQUENCY)
+    waviness, level = np.polyfit(along, np.log(density), 1)
+    off = np.log(density) - level - waviness * along
+    if 10.0 / np.log(10.0) * np.sqrt(np.mean(off**2)) > _OFF_LINE:
+        return np.nan, np.nan  # waves and steps have no line
     return float(np.exp(level)), float(-waviness)
 
 

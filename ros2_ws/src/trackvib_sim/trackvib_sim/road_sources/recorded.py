@@ -69,7 +69,7 @@ def road_of_patches(patches, name):
         raise ProfileError(f"{name} holds no road")
     spacings = {spacing for _, spacing, *_ in patches}
     if len(spacings) > 1:
-        raise ProfileError(f"{name}: road of {len(spacings)} spacings, accepted is one")
+        raise ProfileError(f"{name}: road of {len(spacings)} spacings, accepted: one")
     (spacing,) = spacings
     begin = min(start for start, *_ in patches)
     end = max(start + spacing * (len(left) - 1) for start, _, left, _ in patches)

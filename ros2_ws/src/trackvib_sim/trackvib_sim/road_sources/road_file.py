@@ -50,21 +50,30 @@ class RoadError(ValueError):
 
 
 class _Part(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
 
 
 class RandomGround(_Part):
     """A random road: a class, or a roughness of one's own."""
 
     road_class: Annotated[Literal[tuple(CLASSES)] | None, Field(alias="class")] = None
-    level: Annotated[float, Field(gt=0.0, le=1.0, allow_inf_nan=False)] | None = None  # G_d(n0), m^3
+    """Class of ISO 8608; or give level."""
+    level: Annotated[float, Field(gt=0.0, le=1.0, allow_inf_nan=False, json_schema_extra={"unit": "m^3"})] | None = None
+    """PSD at 0.1 1/m, Gd(n0); instead of a class."""
     waviness: Annotated[float, Field(ge=0.5, le=4.0)] = 2.0
-    lowest: Annotated[float, Field(ge=1e-4, le=100.0)] = LOWEST  # 1/m
-    highest: Annotated[float, Field(ge=1e-4, le=100.0)] = HIGHEST
+    """Exponent w of the PSD."""
+    lowest: Annotated[float, Field(ge=1e-4, le=100.0, json_schema_extra={"unit": "1/m"})] = LOWEST
+    """Lowest spatial frequency of the road."""
+    highest: Annotated[float, Field(ge=1e-4, le=100.0, json_schema_extra={"unit": "1/m"})] = HIGHEST
+    """Highest spatial frequency of the road."""
     seed: Annotated[int, Field(ge=0, le=10**9)] = 1
-    level_until: Annotated[float, Field(ge=-1000.0, le=1e6)] = LEVEL_UNTIL
-    fade: Annotated[float, Field(ge=0.1, le=1000.0)] = FADE
-    coherence_length: Annotated[float, Field(ge=0.0, le=100.0)] | None = None  # m, of exp(-l n); else isotropic
+    """Seed; the same one gives the same road."""
+    level_until: Annotated[float, Field(ge=-1000.0, le=1e6, json_schema_extra={"unit": "m"})] = LEVEL_UNTIL
+    """Distance up to which the road is level."""
+    fade: Annotated[float, Field(ge=0.1, le=1000.0, json_schema_extra={"unit": "m"})] = FADE
+    """Distance over which the roughness then grows to its full level."""
+    coherence_length: Annotated[float, Field(ge=0.0, le=100.0, json_schema_extra={"unit": "m"})] | None = None
+    """Length l of the coherence exp(-l n) of both tracks; of an isotropic surface where left out."""
 
     @model_validator(mode="after")
     def _one_of_both(self):
@@ -103,9 +112,13 @@ class FileGround(_Part):
     """A profile or surface from a file, or the road of a bag."""
 
     file: Annotated[str, Field(min_length=1, max_length=1000)]
-    start: Annotated[float, Field(ge=-1e6, le=1e6)] | None = None
+    """CSV, OpenCRG or bag, from the road file's folder."""
+    start: Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "m"})] | None = None
+    """Distance at which it begins; 10 m where left out, of a bag where it was."""
     reverse: bool = False
+    """Whether it is driven from its end."""
     repeat: bool = False
+    """Whether it is repeated without end."""
 
     def road(self, folder, tread, spacing):
         """Return the road."""
@@ -127,8 +140,11 @@ class RoadFile(_Part):
         ]
         | None
     ) = None  # level
-    spacing: Annotated[float, Field(ge=FINEST, le=COARSEST)] | None = None  # m
+    """What lies under the obstacles; level where left out."""
+    spacing: Annotated[float, Field(ge=FINEST, le=COARSEST, json_schema_extra={"unit": "m"})] | None = None
+    """Distance between samples; 0.05 m of a random road, 0.01 m of a level one, where left out."""
     obstacles: Annotated[list[Obstacle], Field(max_length=MOST_OBSTACLES)] = []
+    """Obstacles on the ground."""
 
 
 def find_road(text, tread, seed=1):
@@ -161,9 +177,11 @@ def find_road(text, tread, seed=1):
     return road_from_file(path, tread)
 
 
-def road_in_words(text):
-    """Return what a road is called, as `find_road` takes it."""
-    return f"class {text}" if text in CLASSES else f"road {Path(text).name}"
+def road_in_words(text, composition=""):
+    """Return what a road is called, as `find_road` takes it, and of a file what it consists of, where that is known."""
+    if text in CLASSES:
+        return f"class {text}"
+    return f"road {Path(text).name}" + (f" ({composition})" if composition else "")
 
 
 def whole_name(text):
@@ -191,7 +209,7 @@ def road_from_file(path, tread, start=None, reverse=False, repeat=False):
         else:
             accepted = f"a class ({', '.join(CLASSES)}), .csv, .crg, .yaml or a bag"
             meant = suggestion(path.name, CLASSES)
-            raise RoadError(f"road {shortened(str(path))!r} does not exist; accepted are {accepted}{meant}")
+            raise RoadError(f"road {shortened(str(path))!r} does not exist; accepted: {accepted}{meant}")
     except ProfileError as error:
         raise RoadError(str(error)) from None
     except OSError as error:

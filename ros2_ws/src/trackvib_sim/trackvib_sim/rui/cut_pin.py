@@ -86,7 +86,7 @@ def _check_loop(bodies, pin, rows):
         ):
             raise ValueError(
                 f"{pin_name(pin)}: in its loop, hinge {hinge.number} of body {bodies[row].name!r} is {hinge.kind} with "
-                f"axis {tuple(hinge.axis)}; accepted are revolute parallel to {tuple(pin.axis)}, prismatic "
+                f"axis {tuple(hinge.axis)}; accepted: revolute parallel to {tuple(pin.axis)}, prismatic "
                 "perpendicular to it and locked"
             )
         along.append(sign * np.dot(hinge.place, axis))

@@ -1,6 +1,7 @@
 """Static equilibrium of the standing vehicle on a level road, its tracks taken as springs."""
 
 import numpy as np
+from mr_mount_controller.node_base.plain_text import number
 from scipy.optimize import root
 from scipy.spatial.transform import Rotation
 
@@ -84,7 +85,7 @@ def static_equilibrium(system, current):
     if not left < TOLERANCE:
         raise NoEquilibrium(
             f"no static equilibrium: the best place found still accelerates by {left:.3g} m/s^2 (or rad/s^2), "
-            f"accepted is < {TOLERANCE:g}; check masses and spring rates of the vehicle file"
+            f"accepted: below {number(TOLERANCE)}; check masses and spring rates of the vehicle file"
         )
     _refuse_toppling(system.supports, columns(work.motion, MotionOffset.ORIGIN, 3))
     return state
@@ -97,7 +98,7 @@ def _refuse_toppling(supports, places):
     for axis, at, hub in zip("xy", load @ hubs / load.sum(), hubs.T, strict=False):
         if not hub.min() <= at <= hub.max():
             raise NoEquilibrium(
-                f"no static equilibrium, it topples: the weight acts at {axis} = {at:.3f} m, accepted is between the "
+                f"no static equilibrium, it topples: the weight acts at {axis} = {at:.3f} m, accepted: between the "
                 f"wheels, {hub.min():.3f} to {hub.max():.3f} m; check masses and their centres in the vehicle file"
             )
 

@@ -16,14 +16,23 @@ class MrMountParameters(Section):
     """
 
     kind: Literal["mr"]
+    """Magnetorheological."""
     stiffness_fit: vector("kN/mm, I in A", 4)
+    """Stiffness along z over current: polynomial, highest power first."""
     damping_ratio_fit: vector("-, I in A", 4)
+    """Damping ratio over current: polynomial, highest power first."""
     carried_mass: Mass
+    """Mass to which the damping ratio refers."""
     current_range: Range("A")
+    """Currents between which the fits are used."""
     yield_force_fit: vector("kN, I in A", 4) | None = None
+    """Force at which the field's part of the stiffness yields: polynomial of current; without it, it never does."""
     rubber_damping_ratio: scalar("-", ge=0.0, le=0.5) = 0.02
+    """Damping ratio of the rubber alone."""
     stiffness_ratio: vector("-", 2, ge=0.0)
+    """Stiffness along x and y over that along z."""
     damping_ratio: vector("-", 2, ge=0.0)
+    """Damping along x and y over that along z."""
 
     @model_validator(mode="after")
     def _stiff_over_the_range(self):
@@ -43,10 +52,15 @@ class RubberMountParameters(Section):
     """Rubber mounts: stiffness by axis, and damping by axis or the loss factor at a frequency."""
 
     kind: Literal["rubber"]
+    """Rubber."""
     stiffness: vector("N/m", 3, ge=0.0)
+    """Stiffness along x, y and z."""
     damping: vector("N s/m", 3, ge=0.0) | None = None
+    """Damping along x, y and z; or give the loss factor."""
     loss_factor: scalar("-", ge=0.0, le=2.0) | None = None
+    """Loss factor of the rubber."""
     loss_frequency: scalar("Hz", gt=0.0) | None = None
+    """Frequency at which the loss factor applies."""
 
     @model_validator(mode="after")
     def _damping_in_one_way(self):
@@ -76,11 +90,17 @@ class MountParameters(Section):
     """
 
     type: Name
+    """Kind of mount, a name in mount_types."""
     body: Name = "powertrain"
+    """Body that it carries; its lower end is in that body's parent."""
     place: Place
+    """Upper end in the body's axes."""
     orientation: Angles | None = None
+    """Roll, pitch and yaw of the mount's axes; along the parent's where left out."""
     static_load: Gain("N") | None = None
+    """Load that it carries along its z with the body in place; its share of the weight where left out."""
     unloaded_height: scalar("m") | None = None
+    """Height of the unloaded upper end above its place; instead of static_load."""
 
     @model_validator(mode="after")
     def _one_load(self):
@@ -93,15 +113,25 @@ class CoilParameters(Section):
     """Driver and coil of an MR mount."""
 
     model: choice("lag", "current_loop")
+    """First-order lag of the current, or a current loop with voltage limits."""
     current_limits: Range("A")
+    """Least and greatest current of the driver."""
     slew_rate: Gain("A/s")
+    """Fastest change of the demanded current; 0 for no limit."""
     delay: scalar("s", ge=0.0, le=1.0)
+    """Time from demand to effect."""
     time_constant: scalar("s", gt=0.0)
+    """Time constant of the lag."""
     loop_time_constant: scalar("s", gt=0.0)
+    """Time constant of the closed current loop."""
     voltage_limits: vector("V", 2)
+    """Least and greatest voltage of the driver."""
     resistance: scalar("ohm", gt=0.0)
+    """Resistance of the coil."""
     inductance: scalar("H", gt=0.0)
+    """Inductance of the coil."""
     eddy_time_constant: Gain("s")
+    """Time constant with which the field follows the current; 0 for at once."""
 
     @model_validator(mode="after")
     def _voltage_for_every_current(self):

@@ -1,104 +1,38 @@
 """The vehicle's parameters: what a vehicle file must hold."""
 
-from itertools import pairwise
+from math import sqrt
 from typing import Annotated, Literal
 
 from mr_mount_controller.mounting import MOST_COILS, MOST_MOUNTS
+from mr_mount_controller.node_base.plain_text import number
 from pydantic import Field, model_validator
 
 from .body_parameters import HULL, AnyBodyParameters
+from .drive_parameters import DrivelineParameters, DriverParameters, EngineParameters
 from .mount_parameters import AnyMountKind, CoilParameters, MountParameters
-from .quantities import scalar, vector, vectors
+from .quantities import scalar, vector
 from .running_gear_parameters import (
     EndWheelsParameters,
-    GroundParameters,
-    RimsParameters,
     RoadWheelsParameters,
     RollersParameters,
     ShockAbsorbersParameters,
     SwingArmsParameters,
+    check_stations,
+)
+from .sections import Angles, Name, Place, RigidBodyParameters, Section
+from .track_parameters import (
+    GroundParameters,
+    RimsParameters,
     TeethParameters,
     TensionersParameters,
     TracksParameters,
-    check_stations,
 )
-from .sections import Angles, Gain, Name, Place, Range, RigidBodyParameters, Section, increasing
 from .upgrade import FORMAT, upgraded
 
 POWERTRAIN = "powertrain"
 CHASSIS = "chassis"
 MOST_BODIES = 30
-MOST_GEARS = 20
 MOST_SENSORS = 32
-
-
-class EngineParameters(Section):
-    """Excitation by engine order: force and moment amplitudes at rated speed."""
-
-    rated_speed: scalar("r/min", gt=0.0)
-    speed_range: Range("r/min")
-    place: Place
-    orders: vector("1/revolution", gt=0.0)
-    force: vectors("N", 3)
-    moment: vectors("N m", 3)
-    phase: vector("rad")
-    imposed_amplitude: Gain("m")
-
-    @model_validator(mode="after")
-    def _one_row_an_order(self):
-        increasing("speed_range", self.speed_range)
-        for name in ("force", "moment", "phase"):
-            if len(getattr(self, name)) != len(self.orders):
-                raise ValueError(f"{name} has {len(getattr(self, name))} rows, must have one for each order")
-        if any(2.0 * order % 1.0 for order in self.orders):
-            raise ValueError(f"orders are {self.orders}, must be multiples of 0.5 (a cycle takes two revolutions)")
-        return self
-
-
-class DrivelineParameters(Section):
-    """Gears between the crankshaft and the sprockets, the engine's torque at full load, and the shafts."""
-
-    ratios: vector("-", most=MOST_GEARS, gt=0.0)
-    shift_up: scalar("r/min", gt=0.0)
-    shift_down: scalar("r/min", gt=0.0)
-    curve_speed: vector("r/min", most=100, ge=0.0)
-    curve_torque: vector("N m", most=100, ge=0.0)
-    efficiency: scalar("-", gt=0.0, le=1.0)
-    inertia: scalar("kg m^2", gt=0.0)
-    stiffness: scalar("N m/rad", gt=0.0)
-    damping: Gain("N m s/rad")
-    ripple: vector("N m", ge=0.0)
-
-    @model_validator(mode="after")
-    def _gears_and_curve(self):
-        if any(low <= high for low, high in pairwise(self.ratios)):
-            raise ValueError(f"ratios are {self.ratios}, each must be below the one before")
-        if len(self.curve_speed) < 2 or len(self.curve_speed) != len(self.curve_torque):
-            raise ValueError(
-                f"curve_speed has {len(self.curve_speed)} numbers and curve_torque {len(self.curve_torque)}, must "
-                "have equal numbers, at least 2"
-            )
-        if any(high <= low for low, high in pairwise(self.curve_speed)):
-            raise ValueError(f"curve_speed is {self.curve_speed}, each must be above the one before")
-        for low, high in pairwise(self.ratios):
-            if self.shift_down >= self.shift_up * high / low:
-                raise ValueError(
-                    f"shift_down is {self.shift_down:g} r/min, must be below {self.shift_up * high / low:g} r/min, to "
-                    f"which shifting up from ratio {low:g} to {high:g} leads"
-                )
-        return self
-
-
-class DriverParameters(Section):
-    """Keeps speed and path."""
-
-    speed_gain: Gain("N s/m")
-    speed_integral_gain: Gain("N/m")
-    force_limit: Gain("N")
-    heading_gain: Gain("N m/rad")
-    heading_damping: Gain("N m s/rad")
-    lane_gain: Gain("rad/m")
-    acceleration_limit: scalar("m/s^2", gt=0.0) | None = None
 
 
 class SensorParameters(Section):
@@ -106,18 +40,31 @@ class SensorParameters(Section):
     gyroscope (`rate_`): what is left out is ideal."""
 
     body: Name
+    """Body to which it is fixed."""
     place: Place
+    """Place in the body's axes."""
     orientation: Angles | None = None
+    """Roll, pitch and yaw of the sensor in the body; along its axes where left out."""
     divisor: scalar("-", ge=1.0, le=1000.0, multiple_of=1.0) | None = None
+    """Control periods for each sample; 1 where left out."""
     bandwidth: scalar("Hz", gt=0.0) | None = None
+    """Cut-off frequency of its low-pass; by its sampling rate where left out."""
     noise: scalar("m/s^2/sqrt(Hz)", ge=0.0) | None = None
+    """Noise density of the accelerometer."""
     bias: vector("m/s^2", 3) | None = None
+    """Offset of the accelerometer along x, y and z."""
     range: scalar("m/s^2", gt=0.0) | None = None
+    """Greatest acceleration that it measures, either way."""
     resolution: scalar("m/s^2", gt=0.0) | None = None
+    """Step of the accelerometer's digits."""
     rate_noise: scalar("rad/s/sqrt(Hz)", ge=0.0) | None = None
+    """Noise density of the gyroscope."""
     rate_bias: vector("rad/s", 3) | None = None
+    """Offset of the gyroscope about x, y and z."""
     rate_range: scalar("rad/s", gt=0.0) | None = None
+    """Greatest angular velocity that it measures, either way."""
     rate_resolution: scalar("rad/s", gt=0.0) | None = None
+    """Step of the gyroscope's digits."""
 
 
 class Vehicle(Section):
@@ -133,8 +80,11 @@ class Vehicle(Section):
     """
 
     format: Literal[FORMAT]
+    """Version of the file's format."""
     name: Name
+    """Name of the vehicle."""
     description: Annotated[str, Field(max_length=500)]
+    """The vehicle in one sentence."""
     hull: RigidBodyParameters
     bodies: Annotated[dict[Name, AnyBodyParameters], Field(max_length=MOST_BODIES)] = {}
     powertrain: AnyBodyParameters
@@ -193,7 +143,7 @@ class Vehicle(Section):
                     raise ValueError(f"mounts.{name}: {item} is {value!r}, must be one of {', '.join(known) or 'none'}")
         coils = sum(self.mount_types[mount.type].kind == "mr" for mount in self.mounts.values())
         if coils > MOST_COILS:
-            raise ValueError(f"mounts: {coils} are of kind 'mr', accepted are {MOST_COILS}")
+            raise ValueError(f"mounts: {coils} are of kind 'mr', accepted: {MOST_COILS}")
         held = {mount.body for mount in self.mounts.values()}
         for name, body in bodies.items():
             if body.hinge == "free" and name not in held:
@@ -202,6 +152,19 @@ class Vehicle(Section):
             for sensor in (CHASSIS, POWERTRAIN):
                 if sensor not in self.sensors:
                     raise ValueError(f"sensors.{sensor}: must be given, for no mount carries the powertrain")
+        return self
+
+    @model_validator(mode="after")
+    def _bodies_within_reach(self):
+        """A radius of gyration is at most half of a body's length; none is twice as long as its tracks."""
+        longest = abs(self.sprockets.x - self.idlers.x)
+        for name, body in ((HULL, self.hull), *self.bodies.items(), (POWERTRAIN, self.powertrain)):
+            gyration = sqrt(max(body.inertia) / body.mass)
+            if gyration > longest:
+                raise ValueError(
+                    f"{name}: mass is {number(body.mass)} kg and inertia {body.inertia} kg m^2, a radius of gyration "
+                    f"of {gyration:.3g} m, must be at most {longest:.3g} m, the distance from sprockets to idlers"
+                )
         return self
 
     @model_validator(mode="after")

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
+from mr_mount_controller.node_base.plain_text import number, span
 from pydantic import AfterValidator, BeforeValidator, Field
 from pydantic_core import core_schema
 
@@ -10,7 +11,7 @@ SOURCES = ("published", "literature", "assumed", "calibrated")
 KEYS = {"value", "unit", "source", "note"}
 # beyond these, squares and differences of a vehicle's numbers lose their digits
 LARGEST = 1e12
-LARGEST_LENGTH = 1e3  # m
+LARGEST_LENGTH = 20.0  # m; the longest tank has 16: what is more was most likely written in millimetres
 
 
 @dataclass(frozen=True)
@@ -68,7 +69,7 @@ def _bounded(unit):
             if isinstance(each, list):
                 check(each)
             elif abs(each) > largest:
-                raise ValueError(f"value is {each:g}, must be from {-largest:g} to {largest:g} {unit}")
+                raise ValueError(f"value is {number(each)}, must be from {span(-largest, largest, unit)}")
         return value
 
     return AfterValidator(check)

@@ -1,31 +1,20 @@
-"""Parameters of suspension, wheels, tracks and ground: their sections of a vehicle file.
+"""Parameters of suspension and wheels: their sections of a vehicle file.
 
 A quantity by station is one number for all stations of both sides, or a list from the front station to the rear one.
-One by side is one number for both, or a pair, left and right.
 """
 
 from math import radians, sin
-from typing import Annotated
 
 import numpy as np
-from pydantic import AfterValidator, model_validator
+from pydantic import model_validator
 
 from .quantities import one_or_many, scalar, vector, words
 from .sections import Gain, Length, Mass, RigidBodyParameters, Section
-from .tracks.nodes import FEWEST_LINKS, MOST_LINKS
 
 MOST_STATIONS = 12
 MOST_ROLLERS = 12
-MOST_CONTACTS = 4  # of a link with a sprocket
-SIDES = 2
-LONGEST_SHEAR = 0.02  # s, of the ground's damping to its stiffness
 
-by_station = lambda unit, **limits: one_or_many(unit, MOST_STATIONS, **limits)  # noqa: E731 - read as types
-by_side = lambda unit, **limits: Annotated[one_or_many(unit, SIDES, **limits), AfterValidator(_pair)]  # noqa: E731
-
-
-def _pair(values):
-    return values if len(values) == SIDES else values * SIDES
+by_station = lambda unit, **limits: one_or_many(unit, MOST_STATIONS, **limits)  # noqa: E731 - reads as a type
 
 
 class SwingArmsParameters(RigidBodyParameters):
@@ -35,17 +24,29 @@ class SwingArmsParameters(RigidBodyParameters):
     """
 
     length: Length
+    """Distance from pivot to wheel axle."""
     static_angle: scalar("deg", gt=-80.0, lt=80.0)
+    """Angle of the arm below the horizontal at static ride height."""
     direction: words(MOST_STATIONS, "trailing", "leading")
+    """Whether the wheel is behind its pivot (trailing) or ahead of it."""
     pivot_y: Length
+    """Distance of the pivots from the middle of the vehicle."""
     wheel_x: vector("m", most=MOST_STATIONS)
+    """Wheel axles at static ride height, from front to rear; of the left side if the right side differs."""
     right_wheel_x: vector("m", most=MOST_STATIONS) | None = None
+    """The same of the right side; as the left one where left out."""
     wheel_rate: by_station("N/m", gt=0.0)
+    """Vertical stiffness at the wheel at static ride height."""
     preload: by_station("N m", ge=0.0) | None = None
+    """Torque of the bar at static ride height; an equal share of the weight where left out."""
     friction: by_station("N s/m", ge=0.0)
+    """Damping of the bearings, as seen at the wheel."""
     bump_travel: by_station("m", gt=0.0)
+    """Rise of the wheel from static ride height to the bump stop."""
     bump_stiffness: by_station("N/m", ge=0.0)
+    """Stiffness of the bump stop, at the wheel."""
     bump_damping: by_station("N s/m", ge=0.0)
+    """Damping of the bump stop, at the wheel."""
 
     @property
     def stations(self):
@@ -82,128 +83,51 @@ class ShockAbsorbersParameters(Section):
     """Telescopic shock absorbers with blow-off, as seen at the wheel; none where the damping is zero."""
 
     damping: by_station("N s/m", ge=0.0)
+    """Damping up to the blow-off force; 0 without an absorber."""
     blow_off_force: by_station("N", ge=0.0)
+    """Force at which the valve opens."""
     blow_off_damping: by_station("N s/m", ge=0.0)
+    """Damping beyond it."""
 
 
 class RoadWheelsParameters(Section):
     """Road wheels, discs about their axle unless their inertia is given (about x, y and z)."""
 
     mass: Mass
+    """Mass of one wheel."""
     radius: Length
+    """Outer radius."""
     width: Length
+    """Width, for the moments of inertia."""
     inertia: vector("kg m^2", 3, gt=0.0) | None = None
+    """Moments of inertia about x, y and z; of a disc where left out."""
     y: Length
+    """Distance of its middle from the middle of the vehicle."""
     bearing_damping: Gain("N m s/rad")
+    """Damping of the bearing."""
 
 
 class EndWheelsParameters(RoadWheelsParameters):
     """Sprockets or idlers: wheels that turn in the hull, one per side."""
 
     x: scalar("m")
+    """Place of the axle along x."""
     z: scalar("m")
+    """Height of the axle."""
 
 
 class RollersParameters(RoadWheelsParameters):
     """Carrier rollers: wheels that turn in the hull, from front to rear."""
 
     x: vector("m", most=MOST_ROLLERS)
+    """Places of the axles along x."""
     z: vector("m", most=MOST_ROLLERS)
+    """Heights of the axles."""
 
     @model_validator(mode="after")
     def _x_and_z_pair(self):
         if len(self.x) != len(self.z):
             raise ValueError(f"x has {len(self.x)} places and z {len(self.z)}, must have equal numbers")
-        return self
-
-
-class RimsParameters(Section):
-    """Where wheels, rollers or idlers touch the links: radial contact, friction, sideways guidance."""
-
-    radial_stiffness: scalar("N/m", gt=0.0)
-    radial_damping: Gain("N s/m")
-    friction: Gain("-")
-    guide_stiffness: Gain("N/m")
-    guide_damping: Gain("N s/m")
-
-
-class TeethParameters(Section):
-    """Contact of the sprockets' teeth with the pins, or with what else of a shoe touches them.
-
-    Seat and flanks are straight, or one concave arc: `arc_centre` is then the distance of its centre from the hub, and
-    `arc_radius` its radius as the pins' centres see it. `contacts` are the places along a link, from its middle on,
-    forwards on the lower run; without them the pins touch.
-    """
-
-    teeth: scalar("-", ge=6.0, le=40.0, multiple_of=1.0)
-    pitch_excess: scalar("-", gt=-0.1, lt=0.1)
-    flank_angle: scalar("deg", ge=0.0, le=60.0)
-    backlash: Gain("m")
-    height: Length
-    corner_radius: Length
-    arc_centre: Length | None = None
-    arc_radius: Length | None = None
-    contacts: vector("m", most=MOST_CONTACTS) | None = None
-    friction: Gain("-") | None = None
-    stiffness: scalar("N/m", gt=0.0)
-    damping: Gain("N s/m")
-    guide_stiffness: Gain("N/m")
-    guide_damping: Gain("N s/m")
-
-    @model_validator(mode="after")
-    def _whole_arc(self):
-        if (self.arc_centre is None) != (self.arc_radius is None):
-            raise ValueError("arc_centre and arc_radius: must be given both or neither")
-        if self.arc_centre is not None and not self.arc_radius < self.arc_centre:
-            raise ValueError(f"arc_radius is {self.arc_radius} m, must be less than arc_centre, {self.arc_centre} m")
-        return self
-
-
-class TensionersParameters(Section):
-    """Slides that hold the idlers outwards.
-
-    `force` is that of their springs with the idlers at their places; without it, it is what gives the taut tracks
-    their pretension.
-    """
-
-    stiffness: Gain("N/m")
-    damping: Gain("N s/m")
-    force: by_side("N", ge=0.0) | None = None
-    travel: Length
-
-
-class TracksParameters(Section):
-    """Links and pins of both tracks."""
-
-    links: by_side("-", ge=float(FEWEST_LINKS), le=float(MOST_LINKS), multiple_of=1.0)
-    pitch: Length
-    shoe_mass: Mass
-    link_stiffness: scalar("N/m", gt=0.0)
-    link_damping: Gain("N s/m")
-    pin_stiffness: Gain("N m/rad")
-    pin_damping: Gain("N m s/rad")
-    sideways_stiffness: Gain("N m/rad")
-    pretension: by_side("N", ge=0.0)
-
-
-class GroundParameters(Section):
-    """The ground under one shoe. Without `shear_stiffness` it is viscous up to Coulomb's limit and keeps no shear."""
-
-    stiffness: scalar("N/m", gt=0.0)
-    damping: Gain("N s/m")
-    shear_stiffness: Gain("N/m")
-    shear_damping: Gain("N s/m")
-    friction: scalar("-", gt=0.0)
-
-    @model_validator(mode="after")
-    def _short_shear(self):
-        # the spring of a sliding shoe is drawn to where spring and damper together give friction: by about speed times
-        # this time, which must stay far below a shoe's length
-        if self.shear_stiffness > 0.0 and self.shear_damping > LONGEST_SHEAR * self.shear_stiffness:
-            raise ValueError(
-                f"shear_damping / shear_stiffness is {self.shear_damping / self.shear_stiffness:.3g} s, "
-                f"must be at most {LONGEST_SHEAR:g} s, or shear_stiffness 0"
-            )
         return self
 
 

@@ -21,16 +21,20 @@ Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]{0,39}$")]
 class Section(BaseModel):
     """A section of the file: unknown items are refused."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
 
 
 class RigidBodyParameters(Section):
     """A rigid body: mass, centre from its origin, inertia about the centre (diagonal; products as matrix elements)."""
 
     mass: Mass
+    """Mass."""
     centre: Place
+    """Centre of mass, from the body's origin."""
     inertia: Inertia
+    """Moments of inertia about x, y and z through the centre of mass."""
     products: Products
+    """Products of inertia xy, xz and yz, as elements of the inertia matrix."""
 
 
 def increasing(name, pair):

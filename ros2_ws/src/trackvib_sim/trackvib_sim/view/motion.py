@@ -56,7 +56,7 @@ def read_motion(recording, span, console):
         )
     if (end - begin) * span.rate > MOST_FRAMES:
         raise ValueError(
-            f"{(end - begin) * span.rate:.0f} frames are asked for, accepted are {MOST_FRAMES}; choose --start, --end "
+            f"{(end - begin) * span.rate:.0f} frames are asked for, accepted: {MOST_FRAMES}; choose --start, --end "
             "or a lower --rate"
         )
     _, parameters = parameters_with(recording.provenance, "physics_rate")

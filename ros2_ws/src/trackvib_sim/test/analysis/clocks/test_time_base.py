@@ -200,7 +200,7 @@ def test_parts_in_any_order_and_copies():
     whole = np.arange(len(time))
     for kept, note in (
         (np.roll(whole, 5000), ""),
-        (np.append(whole, whole[2000:6000]), "4000 messages are in the bag"),
+        (np.append(whole, whole[2000:6000]), "4000 messages are in the recording"),
     ):
         found = analyse(both(time, logged=time - 0.01, kept=kept) if note else both(time, kept=kept))
         require_right(found, 1000.0)

@@ -59,9 +59,11 @@ def test_figures_and_tables_show_the_numbers(drives):
     diagrams = order_figures.campbells(analysis)
     assert len(diagrams) == 4
     for diagram in diagrams:
-        rays = diagram.data[1:]
+        rays = [trace for trace in diagram.data[1:] if trace.mode == "lines"]
         assert len(rays) == 6  # three of link passing, three orders
         assert all(np.isfinite(ray.y).all() and ray.y[1] > ray.y[0] for ray in rays)
+        names = [trace.text[0] for trace in diagram.data[1:] if trace.mode == "text"]
+        assert len(set(names)) == len(names) and any("order 6" in name for name in names)
 
 
 @pytest.mark.property

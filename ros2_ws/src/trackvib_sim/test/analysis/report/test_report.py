@@ -102,7 +102,12 @@ def test_report_of_sensors_alone(report):
     """A bag without mounts, answers, odometry, parameters and vehicle is reported, and says what it lacks."""
     lacking = dict.fromkeys(("mounts", "answers", "odometry", "vehicle"))
     words = _words(report(made_recording(np.arange(1, 4001))._replace(**lacking, provenance={})))
-    for absent in ("no odometry in the bag", "no mount_state in the bag", "no coil_current in the bag", "unknown"):
+    for absent in (
+        "no odometry in the recording",
+        "no mount_state in the recording",
+        "no coil_current in the recording",
+        "unknown",
+    ):
         assert absent in words
     assert "Numbers" in words and "force over deflection" not in words
     assert "bag, 4 s" in words and not re.search(r"\bnan\b|unanswered", words)
@@ -133,7 +138,7 @@ def test_gaps_are_told(report):
         ({"late": "0", "state": "finished"}, "nothing lost, nothing late, every sample answered"),
         ({"late": "3", "saturated": "2"}, "Loop: 3 late, 2 saturated."),
         ({"late": "0", "state": "failed"}, "Loop: the run failed."),
-        ({}, "Loop: the bag does not contain the simulator's counters."),
+        ({}, "Loop: the recording does not contain the simulator's counters."),
     ],
 )
 def test_loop_health_stands_at_the_top(report, told, words):
@@ -145,7 +150,7 @@ def test_loop_health_stands_at_the_top(report, told, words):
 def test_without_answers_in_the_bag_none_is_claimed(report):
     """Neither that every sample was answered nor that one was not."""
     words = _words(report(made_recording(np.arange(1, 4001))._replace(answers=None)))
-    assert "Loop: nothing lost, nothing late. no coil_current in the bag" in words and "unanswered" not in words
+    assert "Loop: nothing lost, nothing late. no coil_current in the recording" in words and "unanswered" not in words
 
 
 @pytest.mark.analytic
@@ -163,7 +168,7 @@ def test_heat_in_the_mounts_is_that_of_their_samples(report):
 def test_thinning_is_told_where_lines_are_thinned(report, samples, thinned):
     """The caption of the histories speaks of long bags only below those of one."""
     page = report(made_recording(np.arange(1, samples + 1)))
-    assert ("For long bags the least" in _words(page)) == thinned
+    assert ("For long recordings the least" in _words(page)) == thinned
 
 
 @pytest.mark.property
@@ -181,7 +186,7 @@ def test_bags_are_compared_with_the_first(report):
     parameters = {**one.provenance, "parameters of /controller": {"law": "skyhook"}}
     words = _words(report(one, other._replace(path=Path("runs/two/bag"), provenance=parameters)))
     assert words.count("(+100.0 %)") == 5 * 6 + 8 + 6 * 6  # quantities with totals, and lines
-    assert words.count("crest factor, weighted") == 1 and "(–)" not in words
+    assert words.count("crest factor (peak / RMS), weighted") == 1 and "(–)" not in words
     assert "controller law unknown skyhook" in words and "simulator speed 10.0 10.0" not in words
     assert "In brackets: difference from one." in words
 

@@ -96,7 +96,7 @@ def test_the_shipped_plan_goes_with_the_shipped_vehicle(text, vehicle, paper):
         ({}, {"rows": [["B", 5]]}, ("[B, 5]", "[A, 5]")),
         ({}, {"rows": [["\x1b" + "x" * 5000, 5]]}, ("[\\x1bx", "xxx ... xxx", "[A, 5]")),
         ({}, {"seeds": 0}, ("seeds", "0", "greater than or equal to 1")),
-        ({}, {"colour": 1}, ("colour", "unknown item; accepted are")),
+        ({}, {"colour": 1}, ("colour", "unknown item; accepted:")),
         ({}, {"parameters": []}, ("parameters", "at least 2")),
     ],
 )

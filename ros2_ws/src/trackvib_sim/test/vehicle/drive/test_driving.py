@@ -157,7 +157,7 @@ def test_a_command_holds_from_the_next_period_on(driven, drive, level):
 @pytest.mark.parametrize(
     ("speed", "yaw_rate", "words"),
     [
-        (26.0, 0.0, "speed is 26.0 m/s, accepted is -25 to 25 m/s"),
+        (26.0, 0.0, "speed is 26.0 m/s, accepted: -25 to 25 m/s"),
         (np.nan, 0.0, "speed is nan"),
         (5.0, np.inf, "yaw rate is inf"),
         (0.0, 0.2, "turning on the spot is not modelled"),

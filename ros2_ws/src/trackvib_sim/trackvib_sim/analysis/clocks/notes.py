@@ -19,7 +19,7 @@ def clock_notes(end, clock):
         (clock.lost, "samples are missing between others"),
         (clock.repeated, "stamps repeat the previous one"),
         (clock.disordered, "samples were sorted by their stamps"),
-        (clock.copies, "messages are in the bag twice, duplicates left out"),
+        (clock.copies, "messages are in the recording twice, duplicates left out"),
         (clock.left_out, "samples are isolated or next to lost ones, left out"),
     ):
         if count:

@@ -102,7 +102,7 @@ def _lines(recordings, analyses):
     if not recordings[0].vehicle and not missing:
         analysis = analyses[0]
         motion = mean_motion(recordings[0], analysis.begin + round(1e9 * analysis.settle))
-        found[0] = known_lines(analysis.spectra, motion, pitch, orders)
+        found[0], _ = known_lines(analysis.spectra, motion, pitch, orders)
         if found[0]:
             notes.append("lines of the measured drive are those of the simulated vehicle, at the speed measured")
     return found, notes

@@ -23,7 +23,7 @@ def facts(report_data):
         "length": f"{found.duration:.6g} s; {found.measured:.6g} s count, after {found.settle:.3g} s of settling",
         "sensors": f"{_rates(found)}; RMS values from {found.band[0]:g} Hz to half the rate",
         **found.origins,
-        "bag": found.bag,
+        "recording": found.bag,
     }
     return [(name, known) for name, known in words.items() if known]
 
@@ -75,7 +75,10 @@ def _road_parameters(report_data):
     road = known.get("road", known.get("road_class"))  # in bags of before
     if road is None:
         return {}
-    return {"road": road_in_words(road), **({"seed": known["seed"]} if road in CLASSES and "seed" in known else {})}
+    return {
+        "road": road_in_words(road, known.get("consists_of", "")),
+        **({"seed": known["seed"]} if road in CLASSES and "seed" in known else {}),
+    }
 
 
 def _speed(report_data):

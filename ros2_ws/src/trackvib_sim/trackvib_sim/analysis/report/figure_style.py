@@ -6,6 +6,7 @@ from math import log10
 import numpy as np
 import plotly.graph_objects as go
 
+from ..labels import joined
 from ..sensor_style import COLOURS, LOWEST_FREQUENCY, NAMES
 
 SENSOR_COLOURS = COLOURS
@@ -17,6 +18,7 @@ AXIS_NAMES = dict(zip("xyz", NAMES, strict=True))
 ONE_TWO_FIVE = [float(f"{digit}e{power}") for power in range(-4, 5) for digit in (1, 2, 5)]  # ticks
 GRID = "rgba(128,128,128,0.28)"
 LINE_COLOURS = {"link passing": "rgba(128,128,128,0.9)", "engine order": "rgba(190,140,20,0.95)"}
+LABEL_WIDTH = 0.045  # of the width of a third of a page, of a name that stands upright
 _LONGEST = 48  # characters of a name in a legend
 
 
@@ -64,9 +66,7 @@ def over_frequency(traces, analysis, title, unit):
     low, high = log10(LOWEST_FREQUENCY), log10(max(top, 2.0 * LOWEST_FREQUENCY))
     figure.update_xaxes(type="log", range=(low, high), tickvals=ONE_TWO_FIVE, title_text="frequency, Hz")
     figure.update_yaxes(title_text=unit)
-    for each in analysis.lines:
-        if LOWEST_FREQUENCY <= each.frequency <= top:
-            _mark(figure, each)
+    _mark(figure, [each for each in analysis.lines if LOWEST_FREQUENCY <= each.frequency <= top], low, high)
     return figure
 
 
@@ -90,19 +90,33 @@ def coherence(traces, analysis, title):
     return over_frequency(traces, analysis, title, "coherence, -").update_yaxes(range=(0.0, 1.02))
 
 
-def _mark(figure, marked):
-    kind, _, number = marked.name.rpartition(" ")
-    passing = kind == "link passing"
-    words = f"order {number}" if not passing else "v/p" if number == "1" else f"{number} v/p"
-    style = {"color": LINE_COLOURS[kind], "width": 1, "dash": "dot" if passing else "dash"}
-    figure.add_shape(
-        type="line", x0=marked.frequency, x1=marked.frequency, y0=0.0, y1=1.0, yref="paper", layer="below", line=style
-    )
-    # names stand inside, upright along their lines: of link passing at the top, of the engine at the bottom
-    figure.add_annotation(
-        x=log10(marked.frequency), y=1.0 if passing else 0.0, yref="paper", text=words, textangle=-90, showarrow=False,
-        xanchor="right", yanchor="top" if passing else "bottom", font_size=10, borderpad=0,
-    )  # fmt: skip
+def _mark(figure, lines, low, high):
+    """Mark lines of known cause, or the ranges over which they moved.
+
+    Names stand upright: of link passing at the top, of the engine at the bottom.
+    """
+    for kind, colour in LINE_COLOURS.items():
+        passing = kind == "link passing"
+        kept = [line for line in lines if line.name.startswith(kind)]
+        named = [0.5 * log10(line.lowest * line.highest) if line.sweeps else log10(line.frequency) for line in kept]
+        style = {"color": colour, "width": 1, "dash": "dot" if passing else "dash"}
+        for each in kept:
+            if each.sweeps:
+                figure.add_vrect(
+                    x0=each.lowest, x1=each.highest, fillcolor=colour, opacity=0.2, line_width=0, layer="below"
+                )
+            else:
+                figure.add_shape(
+                    type="line", x0=each.frequency, x1=each.frequency, y0=0.0, y1=1.0, yref="paper", layer="below",
+                    line=style,
+                )  # fmt: skip
+        for group in joined(named, LABEL_WIDTH * (high - low)):
+            numbers = ", ".join(kept[each].name.rpartition(" ")[2] for each in group)
+            words = f"order {numbers}" if not passing else "v/p" if numbers == "1" else f"{numbers} v/p"
+            figure.add_annotation(
+                x=named[group[0]], y=1.0 if passing else 0.0, yref="paper", text=words, textangle=-90, showarrow=False,
+                xanchor="right", yanchor="top" if passing else "bottom", font_size=10, borderpad=0,
+            )  # fmt: skip
 
 
 def settling(figure, analysis):

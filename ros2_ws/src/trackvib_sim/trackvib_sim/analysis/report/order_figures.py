@@ -3,12 +3,15 @@
 import numpy as np
 import plotly.graph_objects as go
 
+from ..labels import Box, first_free
 from ..numbers import AXES, SENSORS
 from .comparison_figures import overlay
 from .figure_style import AXIS_NAMES, line, mount_colour, styled
 from .spectrogram_figures import ends_of, level_map
 
 _ENGINE = ("engine speed", "r/min")
+_CHARACTER = 0.014, 0.042  # of width and height of a Campbell diagram, of a character of a name
+_SHIFTS = np.linspace(0.0, 0.9, 19)  # parts of a ray by which a name may be moved back from its end
 ABOVE = 1.25  # times the highest ray in a Campbell diagram, which ends there
 
 
@@ -74,31 +77,48 @@ def _campbell(diagram, sensor):
     up = diagram.frequency[shown], "frequency", "Hz"
     across = diagram.value, diagram.over, diagram.unit
     figure = level_map(_title(sensor), across, up, levels[sensor], ends_of(levels.values()))
+    half = 0.5 * (diagram.value[1] - diagram.value[0])
+    across = float(diagram.value[0] - half), float(diagram.value[-1] + half)
+    top, taken = float(diagram.frequency[shown][-1]), []
     for ray in diagram.rays:
         figure.add_trace(_ray(ray))
-    half = 0.5 * (diagram.value[1] - diagram.value[0])
-    figure.update_xaxes(range=(float(diagram.value[0] - half), float(diagram.value[-1] + half)))
-    figure.update_yaxes(range=(0.0, float(diagram.frequency[shown][-1])))
+        _name(figure, ray, across, top, taken)
+    figure.update_xaxes(range=across)
+    figure.update_yaxes(range=(0.0, top))
     return figure.update_layout(height=420, showlegend=False)
 
 
 def _ray(ray):
-    """Return the line of a `Ray`; harmonics of link passing tell their names only where one points at them."""
-    name, _, gear = ray.name.partition(", ")
-    kind, _, number = name.rpartition(" ")
-    passing = kind == "link passing"
-    words = f"order {number}" if not passing else "v/p" if number == "1" else ""
     x, y = zip(*ray.ends, strict=True)
     return go.Scatter(
         x=x,
         y=y,
-        mode="lines+text",
-        text=("", ", ".join(filter(None, (words, gear))) if words else ""),
-        textposition="top left",
-        textfont={"size": 10, "color": "white"},
-        line={"color": "rgba(255,255,255,0.75)", "width": 1, "dash": "dot" if passing else "dash"},
+        mode="lines",
+        line={"color": "rgba(255,255,255,0.75)", "width": 1, "dash": "dot" if _passing(ray) else "dash"},
         hovertemplate=f"{ray.name}: %{{x:.4~g}}, %{{y:.4~g}} Hz<extra></extra>",
     )
+
+
+def _passing(ray):
+    return ray.name.startswith("link passing")
+
+
+def _name(figure, ray, across, top, taken):
+    """Write the name of a `Ray` at the last place on it that is free; one without a free place has it on hovering."""
+    name, _, gear = ray.name.partition(", ")
+    number = name.rpartition(" ")[2]
+    words = f"order {number}" if not _passing(ray) else "v/p" if number == "1" else f"{number} v/p"
+    words = ", ".join(filter(None, (words, gear)))
+    (x, y), (x_end, y_end) = ray.ends
+    width, height = _CHARACTER[0] * len(words) * (across[1] - across[0]), _CHARACTER[1] * top
+    right = np.minimum(x_end, across[1]) - _SHIFTS * (x_end - x)
+    bottom = y + (y_end - y) * (right - x) / ((x_end - x) or 1.0)
+    boxes = [Box(a - width, b, a, b + height) for a, b in zip(right, bottom, strict=True) if a - width >= across[0]]
+    box = first_free(boxes, taken)
+    if box is not None:
+        taken.append(box)
+        place = {"x": [box.right], "y": [box.bottom], "textposition": "top left", "hoverinfo": "skip"}
+        figure.add_trace(go.Scatter(mode="text", text=[words], textfont={"size": 10, "color": "white"}, **place))
 
 
 def _title(sensor):

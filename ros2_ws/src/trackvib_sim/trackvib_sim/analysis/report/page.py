@@ -10,6 +10,7 @@ from plotly.offline import get_plotlyjs
 from plotly.utils import PlotlyJSONEncoder
 
 from . import facts, tables
+from .definitions import definitions
 from .sections import of_one, of_several, tiles
 
 
@@ -32,7 +33,8 @@ def write_report(report_data_list, path, first=()):
     """
     names = facts.names([report_data.analysis.bag for report_data in report_data_list])
     single = len(report_data_list) == 1
-    sections = [*first, *(of_one(report_data_list[0]) if single else of_several(report_data_list, names))]
+    found = of_one(report_data_list[0]) if single else of_several(report_data_list, names)
+    sections = [*first, *found, definitions()]
     figures = {}
     placed = [section._replace(figures=[_place(figure, figures) for figure in section.figures]) for section in sections]
     text = _environment().get_template("page.html.j2").render(

@@ -21,7 +21,8 @@ from .thinning import MOST
 
 _WEIGHTED = "Weighted: ISO 2631-1, Wk along z, Wd along x and y."
 _WELCH = (
-    "Welch's method, windows of 1 s. Dotted: links entering the sprockets, v/p and multiples. Dashed: engine orders"
+    "Welch's method, windows of 1 s. Dotted: links entering the sprockets, v/p and multiples. Dashed: engine orders. "
+    "Shaded: where they moved with the speed"
 )
 _PARTS = "Vertical z: RMS, and the power that a driver sitting there would absorb (dotted: 6 W, the usual ride limit)."
 _ORDERS = "Vertical z. Order spectra in dB re 1 (m/s²)²/order by engine speed, and RMS in a band about each order."
@@ -177,7 +178,7 @@ def _about_histories(analyses, grey):
     """Return what the histories of some bags show, and what is grey there."""
     words = ["Specific force as recorded, +g along z at rest."]
     if any(timing.samples > MOST for analysis in analyses for timing in _of_sensors(analysis)):
-        words.append("For long bags the least and the greatest value of each part are drawn.")
+        words.append("For long recordings the least and the greatest value of each part are drawn.")
     return " ".join([*words, f"Grey: {grey}."])
 
 

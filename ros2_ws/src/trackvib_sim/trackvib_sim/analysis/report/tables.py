@@ -11,9 +11,9 @@ WORDS = {
     "rms_raw": "RMS, raw, about the mean",
     "peak": "peak, band-limited",
     "rms_weighted": "RMS, weighted",
-    "crest_factor": "crest factor, weighted",
-    "mtvv": "MTVV",
-    "vdv": "VDV",
+    "crest_factor": "crest factor (peak / RMS), weighted",
+    "mtvv": "greatest RMS over 1 s, weighted (MTVV)",
+    "vdv": "vibration dose value, weighted (VDV)",
     "mean": "mean",
 }
 MOUNT = (  # words, unit, which number of a `MountNumbers`
@@ -118,7 +118,7 @@ def lines(analysis):
     rows = [
         (
             line.name,
-            number(line.frequency),
+            line.hertz if line.sweeps else number(line.frequency),
             f"{line.low:.4g} to {line.high:.4g}",
             *(number(line.rms[sensor][axis], 3) for axis in AXES for sensor in SENSORS),
         )
@@ -146,7 +146,7 @@ def worries(analysis):
     if analysis.loop.get("state") == "failed":
         found.append("the run failed")
     if "late" not in analysis.loop:
-        found.append("the bag does not contain the simulator's counters")
+        found.append("the recording does not contain the simulator's counters")
     return found
 
 

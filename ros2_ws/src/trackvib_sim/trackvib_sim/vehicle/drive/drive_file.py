@@ -23,6 +23,8 @@ from ...csv_columns import METRES, CsvError, read_columns
 from ...numerics.units import RPM
 from ...yaml_text import YamlTextError, read_text, validated
 from .command import check_curvature, check_speed
+from .limits import FASTEST
+from .path import HIGHEST_CURVATURE
 from .schedule import Schedule
 
 MOST_POINTS = 20_000
@@ -38,7 +40,16 @@ _UNITS = {
 }
 _LAYOUTS = (("time", "speed"), ("distance", "speed"))
 
-Number = Annotated[float, Field(allow_inf_nan=False)]
+Speed = Annotated[
+    float, Field(allow_inf_nan=False, json_schema_extra={"unit": "m/s", "minimum": -FASTEST, "maximum": FASTEST})
+]
+Curvature = Annotated[
+    float,
+    Field(
+        allow_inf_nan=False,
+        json_schema_extra={"unit": "1/m", "minimum": -HIGHEST_CURVATURE, "maximum": HIGHEST_CURVATURE},
+    ),
+]
 
 
 class DriveFileError(ValueError):
@@ -48,12 +59,16 @@ class DriveFileError(ValueError):
 class DrivePoint(BaseModel):
     """What is wanted at one time or distance."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
 
-    at: Annotated[float, Field(ge=-_LARGEST_AT, le=_LARGEST_AT)]
-    speed: Number
-    curvature: Number = 0.0
-    engine_speed: Annotated[float, Field(ge=0.0, le=10_000.0)] | None = None
+    at: Annotated[float, Field(ge=-_LARGEST_AT, le=_LARGEST_AT, json_schema_extra={"unit": "s or m"})]
+    """Time or distance of the point; each above the one before."""
+    speed: Speed
+    """Wanted speed; at least 0.1 m/s over distance."""
+    curvature: Curvature = 0.0
+    """Curvature of the path, positive to the left; 0 in reverse."""
+    engine_speed: Annotated[float, Field(ge=0.0, le=10_000.0, json_schema_extra={"unit": "r/min"})] | None = None
+    """Wanted engine speed, in all points or in none; of the run where left out."""
 
     @model_validator(mode="after")
     def _can_be_driven(self):
@@ -65,10 +80,12 @@ class DrivePoint(BaseModel):
 class DriveFile(BaseModel):
     """The whole file."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
 
     over: Literal["time", "distance"] = "time"
+    """Whether points are at times from the start of the run, or at distances along the path."""
     points: Annotated[list[DrivePoint], Field(min_length=1, max_length=MOST_POINTS)]
+    """Points; linear in between, constant before and after."""
 
     @model_validator(mode="after")
     def _in_order(self):
