@@ -134,7 +134,7 @@ def test_bad_options_are_refused(start_cli, tmp_path, arguments, words):
 @pytest.mark.parametrize(
     ("node", "values", "words"),
     [
-        ("road_excitation", "{fade: -1.0}", "'road_excitation' cannot run: parameter 'fade' is -1.0, accepted is"),
+        ("road_excitation", "{fade: -1.0}", "'road_excitation' cannot run: parameter 'fade' is -1.0, accepted: "),
         ("simulator", "{engine_speed: 3900.0}", "'simulator' cannot run: parameter 'engine_speed' is 3900.0, accepted"),
         ("controller", "{law: magic}", "error: parameter 'law' is 'magic', must be one of"),
     ],
