@@ -57,9 +57,7 @@ def test_moments_of_inertia_that_no_body_has_are_refused():
     assert text.count(good) == 1
     doubts(parse_vehicle(text.replace(good, "value: [20000.0, 70000.0, 89900.0]"), "my.yaml"))
     for bad in ("value: [20000.0, 70000.0, 93000.0]", "value: [20.0, 75.0, 88.0]"):
-        with pytest.raises(
-            ValueError, match=r"\(hull\): principal moments .* the sum of the other two"
-        ):
+        with pytest.raises(ValueError, match=r"\(hull\): principal moments .* the sum of the other two"):
             doubts(parse_vehicle(text.replace(good, bad), "my.yaml"))
 
 
