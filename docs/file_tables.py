@@ -4,6 +4,7 @@ from functools import partial
 
 from mr_mount_controller.node_base.plain_text import number
 from trackvib_sim.road_sources.road_file import RoadFile
+from trackvib_sim.studies.calibration.plan import Plan
 from trackvib_sim.vehicle.drive.drive_file import DriveFile
 from trackvib_sim.vehicle.parameters import Vehicle
 
@@ -77,6 +78,8 @@ def _accepted(schema):
         return ", or ".join(map(_accepted, schema["anyOf"]))
     if "const" in schema or "enum" in schema:
         return ", ".join(f"`{word}`" for word in schema.get("enum", [schema.get("const")]))
+    if "prefixItems" in schema:
+        return f"[{', '.join(map(_accepted, schema['prefixItems']))}]"
     if schema.get("type") == "array":
         low, high = schema.get("minItems", 0), schema.get("maxItems")
         size = f"{low}" if low == high else f"{low} to {high}" if high else f"{low} or more"
@@ -92,5 +95,5 @@ def _accepted(schema):
 
 TABLES = {
     f"items of a {name} file": partial(items_of_file, model)
-    for name, model in (("vehicle", Vehicle), ("road", RoadFile), ("drive", DriveFile))
+    for name, model in (("vehicle", Vehicle), ("road", RoadFile), ("drive", DriveFile), ("plan", Plan))
 }

@@ -27,14 +27,13 @@ class _Strict(BaseModel):
 
 
 class Parameter(_Strict):
-    """A number of the vehicle file that may vary, written `section.item` or `section.item[0]`; sections may lie in
-    others: `bodies.turret.mass`."""
+    """A number of the vehicle file that may vary; sections may lie in others: `bodies.turret.mass`."""
 
-    item: str
-    low: Bound
-    high: Bound
-    scale: Literal["linear", "log"]
-    source: Annotated[str, Field(min_length=1)]
+    item: Annotated[str, Field(description="Item of the vehicle file: `section.item`, or `section.item[0]`.")]
+    low: Annotated[Bound, Field(description="Least value that is tried, in the item's unit.")]
+    high: Annotated[Bound, Field(description="Greatest value that is tried.")]
+    scale: Annotated[Literal["linear", "log"], Field(description="How the search divides the range; log above 0.")]
+    source: Annotated[str, Field(min_length=1, description="Where the bounds come from.")]
 
     @model_validator(mode="after")
     def _usable(self):
@@ -89,14 +88,23 @@ class Parameter(_Strict):
 class Plan(_Strict):
     """The whole file."""
 
-    rows: Annotated[list[tuple[str, float]], Field(min_length=1)]  # of the paper's table: class, speed in m/s
-    seeds: Annotated[int, Field(ge=1, le=100)]  # runs a row, each with its own road and track phase
-    measuring: Annotated[float, Field(ge=1.0, le=60.0)]  # s of each run
-    population: Annotated[int, Field(ge=4, le=1000)]  # candidates a generation
-    generations: Annotated[int, Field(ge=1, le=100000)]
-    step: Annotated[float, Field(gt=0.0, le=0.5)]  # of the optimiser, first standard deviation in shares of the ranges
-    seed: Annotated[int, Field(ge=0, le=2**32 - 1)]  # of the optimiser
-    parameters: Annotated[list[Parameter], Field(min_length=2)]
+    rows: Annotated[
+        list[tuple[str, float]],
+        Field(min_length=1, description="Rows of the paper's table to fit: class of the road, speed in m/s."),
+    ]
+    seeds: Annotated[
+        int, Field(ge=1, le=100, description="Runs of each row, each with its own road and phase between the tracks.")
+    ]
+    measuring: Annotated[
+        float, Field(ge=1.0, le=60.0, description="Length of each run after settling.", json_schema_extra={"unit": "s"})
+    ]
+    population: Annotated[int, Field(ge=4, le=1000, description="Candidates of a generation.")]
+    generations: Annotated[int, Field(ge=1, le=100000, description="Length of the search.")]
+    step: Annotated[
+        float, Field(gt=0.0, le=0.5, description="First standard deviation of the search, as a part of each range.")
+    ]
+    seed: Annotated[int, Field(ge=0, le=2**32 - 1, description="Seed of the search.")]
+    parameters: Annotated[list[Parameter], Field(min_length=2, description="Parameters that may vary.")]
 
     @model_validator(mode="after")
     def _each_once(self):
