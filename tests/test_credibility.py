@@ -84,7 +84,7 @@ def test_what_control_gains():
     gains = {}
     for quantity in ("powertrain_wk", "powertrain"):
         found = re.search(rf"^\| class E, 10 m/s \| `{quantity}` \|.*\| ([^|]+) \| [^|]+ \|$", table, re.MULTILINE)
-        gains[quantity] = found[1].replace("*", "").lstrip("+")
+        gains[quantity] = found[1].removesuffix(" *").lstrip("+")
     front = page("README.md")
     assert f"by {gains['powertrain_wk']} % against the best constant current" in front
     assert f"by {gains['powertrain']} %" in front

@@ -205,8 +205,8 @@ def test_a_worker_without_the_package_is_named(table1, start, scheduler, env):
     [
         (("--classes", "A,Z"), ("--classes", "'Z'", "'A', 'B', 'C', 'D', 'E', 'F', 'G', 'H'")),
         (("--classes", ""), ("--classes", "''")),
-        (("--speeds", "5,0"), ("--speeds", "0", "0.0<x<=25.0")),
-        (("--speeds", "nan"), ("--speeds", "nan", "0.0<x<=25.0")),
+        (("--speeds", "5,0"), ("--speeds", "0", "above 0, up to 25 m/s")),
+        (("--speeds", "nan"), ("--speeds", "nan", "above 0, up to 25 m/s")),
         (("--speeds", "5;10"), ("--speeds", "5;10", "not a valid float")),
         (("--seeds", "0"), ("--seeds", "0", "1 to 1000")),
         (("--vehicle", "none.yaml"), ("error: vehicle file 'none.yaml' cannot be read",)),

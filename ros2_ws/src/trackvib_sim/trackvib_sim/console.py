@@ -16,7 +16,7 @@ from rich.table import Table
 from rich.text import Text
 
 _UNLIMITED = 100_000  # columns of what is no terminal
-_SHORTEST_FOLDS = 12, 9, 6, 4  # letters of a word that are kept together, fewer where there is no room
+_SHORTEST_FOLDS = 20, 12, 9, 6, 4  # letters of a word that are kept together, fewer where there is no room
 _NUMBER = re.compile(r"[+\-−±*]*[0-9]")  # what begins like this is a number
 
 
