@@ -49,7 +49,8 @@ def _spectrum(plot, prepared, lines):
     plot.set_xlabel("frequency, Hz")
     plot.set_ylabel("(m/s²)²/Hz")
     plot.set_title(
-        "vertical power spectral density, with link passing (v/p) and engine orders; shaded: speed varied",
+        "vertical power spectral density, with link passing (v/p) and engine orders"
+        + "; shaded: speed varied" * any(line.sweeps for line in lines),
         fontsize=10,
     )
     plot.grid(alpha=0.3, which="both")

@@ -41,7 +41,7 @@ def run_loop(choosing, out, viewing=lambda _choices, _vehicle: nullcontext()):
     A run that is refused or has no sample leaves no folder.
     """
     console = Terminal()
-    choices, parameters, vehicle, settling = choose(**choosing)
+    choices, parameters, vehicle = choose(**choosing)
     executables = ONE_PROCESS if choices.one_process else FOUR_PROCESSES
     with LoopProcesses(executables) as processes, viewing(choices, vehicle), own_domain(choices.namespace):
         name = f"{datetime.now():%Y%m%dT%H%M%S}_{_short(choices.road)}_{_pace(choices)}"
@@ -55,7 +55,7 @@ def run_loop(choosing, out, viewing=lambda _choices, _vehicle: nullcontext()):
             if choices.physics_rate < (least := recommended_rate(vehicle)):
                 console.print(f"warning: --physics-rate {choices.physics_rate} is below the recommended {least} Hz")
             interrupt = _run_nodes(processes, choices, parameters, folder, console)
-            _measure(choices, settling, folder, console, interrupt)
+            _measure(choices, folder, console, interrupt)
 
 
 def _worth_keeping(folder, error):
@@ -84,12 +84,12 @@ def _doubts(vehicle):
         return [str(error)]
 
 
-def _measure(choices, settling, folder, console, interrupt):
+def _measure(choices, folder, console, interrupt):
     """Leave and print what the bag tells; raises as `run_loop`."""
     from .run_summary import evaluate  # loaded by `_follow`
 
     try:
-        lacking = evaluate(choices, settling, folder, console)
+        lacking = evaluate(choices, folder, console)
     except (BagError, ValueError) as error:
         raise interrupt or CommandError(str(error)) from None
     if lacking:

@@ -53,8 +53,7 @@ class Choices:
 
 
 def choose(given, files, namespace, one_process, view):
-    """Return the `Choices`, the `NodeParameters` that they are, the vehicle (`parameters.Vehicle`), and how long the
-    run settles [s].
+    """Return the `Choices`, the `NodeParameters` that they are, and the vehicle (`parameters.Vehicle`).
 
     Parameters
     ----------
@@ -98,7 +97,7 @@ def choose(given, files, namespace, one_process, view):
             f"--duration is {choices.duration:g} s, must be at least {settling + SHORTEST_MEASURING:.1f} s {how}: "
             f"{settling:.1f} s to settle and {SHORTEST_MEASURING:g} s to measure"
         )
-    return choices, parameters, vehicle, settling
+    return choices, parameters, vehicle
 
 
 def _make_law(name, parameters):

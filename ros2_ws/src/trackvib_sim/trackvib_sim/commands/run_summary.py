@@ -10,6 +10,7 @@ from ..analysis.completeness import missing
 from ..analysis.numbers import AXES
 from ..analysis.picture_data import prepare
 from ..analysis.plots import run_picture
+from ..analysis.settling import SHORTEST_SETTLING
 from ..analysis.summary import summarise
 from ..bags.reading import read_recording
 from ..console import Terminal
@@ -17,17 +18,17 @@ from ..vehicle.mount_energy import MountEnergy
 from .result_folder import whole_or_none
 
 
-def evaluate(choices, settling, folder, console):
-    """Leave summary and picture of a run that settles so long [s]; returns in words what the bag lacks."""
+def evaluate(choices, folder, console):
+    """Leave summary and picture of a run, settled as `trackvib analyze` has it; returns in words what the bag lacks."""
     # of a run that was reset the last epoch; its bag has the highest number
     bag = max(folder.glob("bag*"), key=lambda path: (len(path.name), path.name), default=folder / "bag")
     recording = read_recording(bag)
-    analysis = analyse(recording, settling)
+    analysis = analyse(recording)
     summary = {"run": asdict(choices), **summarise(analysis)}
     files = [folder / name for name in ("summary.json", "run.png", "summary.txt")]
     with whole_or_none(*files) as (numbers, picture, text):
         numbers.write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
-        run_picture(prepare(recording, settling), analysis.lines, choices.title, picture)
+        run_picture(prepare(recording, analysis.settle), analysis.lines, choices.title, picture)
         with text.open("w", encoding="utf-8") as file:
             _print_summary(Terminal(file=file, width=100), summary, folder)
     _print_summary(console, summary, folder)
@@ -36,7 +37,12 @@ def evaluate(choices, settling, folder, console):
 
 def _print_summary(console, summary, folder):
     low, high = summary["band_hz"]
-    title = f"RMS acceleration, {low:g}-{high:g} Hz, after {summary['settled_after_s']:.1f} s"
+    settled = summary["settled_after_s"]
+    if settled > SHORTEST_SETTLING:
+        console.print(
+            f"the first {settled:.1f} s do not count: not all of the vehicle was on the road's full roughness"
+        )
+    title = f"RMS acceleration, {low:g}-{high:g} Hz, after {settled:.1f} s"
     table = Table(title=title, title_justify="left")
     table.add_column("m/s²")
     for name in ("longitudinal x", "lateral y", "vertical z"):
