@@ -88,6 +88,7 @@ def test_frames_of_a_run_in_lockstep(drive):
             np.testing.assert_array_equal(one, other)
 
 
+@pytest.mark.slow(reason="a drive in real time")
 def test_frames_of_a_run_in_real_time(drive):
     """A bag that depends on the machine is shown from its frames."""
     bag, _ = drive(duration=0.6, pace="realtime", real_time_factor=0.2)

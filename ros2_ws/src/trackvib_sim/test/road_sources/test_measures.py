@@ -10,6 +10,7 @@ from trackvib_sim.road_sources.measures import measures, psd, roughness_index
 SPACING = 0.05
 
 
+@pytest.mark.slow(reason="superposes long roads")
 @pytest.mark.analytic
 @pytest.mark.parametrize("road_class", CLASSES)
 def test_a_class_is_found_again(road_class):
@@ -21,6 +22,7 @@ def test_a_class_is_found_again(road_class):
         assert found.waviness == pytest.approx(2.0, abs=0.15)
 
 
+@pytest.mark.slow(reason="superposes long roads")
 @pytest.mark.analytic
 @pytest.mark.parametrize("waviness", [1.5, 2.0, 2.5, 3.0])
 def test_a_roughness_of_ones_own_is_found_again(waviness):
