@@ -13,7 +13,6 @@ from .option_types import FiniteRange, Known, Several, WholeRange, vehicle_optio
 from .result_folder import remove_if_empty
 from .verbs import Verbs
 
-_PERIOD = 1e-3  # s, of the control loop
 SCENARIOS = ("e10", "c20", "run_up", "bump")  # those of studies.controllers, which takes long to import
 
 
@@ -131,12 +130,7 @@ def figures(vehicle, scheduler, out):
 def controllers(laws, scenarios, seeds, vehicle, scheduler, out):
     """Compare every control law with constant currents: on roads, in an engine run-up and over a bump."""
     with _ends_in_one_line(out):
-        from mr_mount_controller.laws import find_law  # imported late, as above
-        from mr_mount_controller.laws.running import make_law
-
-        for law in laws or ():
-            make_law(find_law(law), _PERIOD, {})  # one that cannot be is refused before there is a folder
-        from ..studies.controllers.study import run_controllers
+        from ..studies.controllers.study import run_controllers  # imported late, as above
 
         run_controllers(laws, scenarios, seeds, vehicle, scheduler, out)
 

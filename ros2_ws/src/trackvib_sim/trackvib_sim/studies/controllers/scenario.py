@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 from mr_mount_controller.laws import find_law
+from mr_mount_controller.laws.running import make_law
 from scipy import signal
 
 from ...analysis.iso2631 import weighted
@@ -112,7 +113,7 @@ def control(vehicle, case):
     settled, measured = (round(time * RATES.control) for time in (scenario.settling, scenario.measuring))
     try:
         simulation = Simulation(vehicle, RunSettings(operation, rates_for(vehicle), case.current), probes(vehicle))
-        law = find_law(case.law)(period, **values)
+        law = make_law(find_law(case.law), period, values)
         record = run_closed_loop(simulation, scenario.road(vehicle, case.seed), law, settled + measured)
     except (CannotRoll, RunFailed) as error:
         return ControlResult(f"failed: {error}", {})

@@ -6,12 +6,15 @@ from pathlib import Path
 
 import mr_mount_controller
 from mr_mount_controller.laws import find_law, known_laws
+from mr_mount_controller.laws.running import make_law
 from rich.table import Table
 
 from ...console import Terminal
 from ...data import find_vehicle
 from ...new_files import new_file
+from ...numerics.units import NANO
 from ...vehicle.vehicle_file import read_vehicle
+from ..case import rates_for
 from ..case_store import CaseStore
 from ..paper.table1 import track_phase
 from ..run_missing import run_shown
@@ -46,6 +49,8 @@ def run_controllers(laws, scenarios, seeds, vehicle_file, scheduler, out):
     classes = [find_law(name) for name in laws]
     path = Path(find_vehicle(vehicle_file))
     vehicle, text = read_vehicle(path)
+    for each in classes:  # one that cannot be made is refused before there is a folder
+        make_law(each, rates_for(vehicle).period / NANO, {})
     folder, console = Path(out), Terminal()
     store = CaseStore(folder / "cases", text + controllers(classes), ControlCase, ControlResult)
     found = run_shown(vehicle, cases(laws, scenarios, seeds), store, folder, console, scheduler, control)
