@@ -50,11 +50,11 @@ def run_loop(choosing, out, viewing=lambda _choices, _vehicle: nullcontext()):
             parameters.give(RECORDER, bag=str(folder / "bag"))
             parameters.give(SIMULATOR, wait_for_view=choices.view)
             console.print(f"closed loop: {choices.title}")
-            for note in (*parameters.notes, *_doubts(vehicle)):
+            for note in parameters.notes:
                 console.print(f"warning: {note}", soft_wrap=True)
             if choices.physics_rate < (least := recommended_rate(vehicle)):
                 console.print(f"warning: --physics-rate {choices.physics_rate} is below the recommended {least} Hz")
-            interrupt = _run_nodes(processes, choices, parameters, folder, console)
+            interrupt = _run_nodes(processes, choices, parameters, vehicle, folder, console)
             _measure(choices, folder, console, interrupt)
 
 
@@ -98,11 +98,13 @@ def _measure(choices, folder, console, interrupt):
         raise interrupt
 
 
-def _run_nodes(processes, choices, parameters, folder, console):
+def _run_nodes(processes, choices, parameters, vehicle, folder, console):
     """Run the nodes to the end; returns the KeyboardInterrupt that cut them short, or None."""
     interrupted = None
     try:
         processes.start(parameters, folder / "log")
+        for doubt in _doubts(vehicle):  # found while the nodes start
+            console.print(f"warning: {doubt}", soft_wrap=True)
         _follow(processes, choices, console)
     except KeyboardInterrupt as interrupt:
         interrupted = interrupt
