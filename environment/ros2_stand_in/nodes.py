@@ -2,6 +2,8 @@
 
 import sys
 
+from rclpy.node import NodeNameNonExistentError
+
 from environment.ros2_stand_in.session import Session, is_hidden
 from environment.ros2_stand_in.terminal import Failure, line
 
@@ -34,15 +36,18 @@ def info(chosen):
             line(f"There are {count} nodes in the graph with the exact name \"{chosen.node_name}\". "
                  "You are seeing information about only one of them.", sys.stderr)  # fmt: skip
         space, _, name = chosen.node_name.rpartition("/")
-        ask = [
-            list(asked(name, space or "/"))
-            for asked in (
-                session.node.get_subscriber_names_and_types_by_node,
-                session.node.get_publisher_names_and_types_by_node,
-                session.node.get_service_names_and_types_by_node,
-                session.node.get_client_names_and_types_by_node,
-            )
-        ]
+        try:
+            ask = [
+                list(asked(name, space or "/"))
+                for asked in (
+                    session.node.get_subscriber_names_and_types_by_node,
+                    session.node.get_publisher_names_and_types_by_node,
+                    session.node.get_service_names_and_types_by_node,
+                    session.node.get_client_names_and_types_by_node,
+                )
+            ]
+        except NodeNameNonExistentError:  # it has just gone
+            raise Failure(f"Unable to find node '{chosen.node_name}'") from None
     line(chosen.node_name)
     for title, found in zip(("Subscribers", "Publishers", "Service Servers", "Service Clients"), ask, strict=True):
         _print(title, [each for each in found if chosen.include_hidden or not is_hidden(each[0])])

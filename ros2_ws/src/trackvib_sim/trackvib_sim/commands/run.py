@@ -153,6 +153,8 @@ def _follow(processes, choices, console):
                     completed=float(values["time"]),
                     pace=f"{float(values['real_time_factor']):.2f}",
                 )
+        if not any(processes.ended().values()) and values.get("state") != "finished":
+            progress.update(task, visible=False)  # the last news was not heard: an older one would tell a wrong end
 
 
 def _short(path):
