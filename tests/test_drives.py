@@ -95,6 +95,7 @@ def test_commands_are_taken_recorded_and_replayed(start_node, observer, tmp_path
     assert identical, verdict
 
 
+@pytest.mark.slow(reason="waits for road node and simulator of its own")
 def test_the_road_follows_the_distance_along_the_path(start_node, observer):
     """A vehicle that tells a distance gets the road around it, whatever its place in the plane."""
     starts = []

@@ -42,6 +42,7 @@ def driven(start_node, observer, tmp_path):
     )
 
 
+@pytest.mark.slow(reason="two runs of real processes")
 def test_kinds_travel_are_recorded_and_change_nothing(driven):
     """Each kind has its topic and as many numbers as names; a foreign reader finds them in the bag, at their rate; and
     the bag drives again without them bit for bit."""

@@ -36,6 +36,7 @@ def messages(bag, topic, kind):
         return [deserialize_message(renew(each) if renew else each, kind) for each in data], renew
 
 
+@pytest.mark.slow(reason="records a whole run")
 def test_columns_and_numbers(recorded_run, old):
     """The same columns, the names of then, and the same numbers of every kind."""
     new, before = read_recording(recorded_run / "bag"), read_recording(old)

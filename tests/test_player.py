@@ -50,6 +50,7 @@ def test_every_byte_arrives_again(start_node, observer, bag):
     assert times == sorted(times) and times[-1] == 3200 and len(times) > 100
 
 
+@pytest.mark.slow(reason="records a whole run")
 def test_late_joiners_get_what_was_latched(start_node, observer, bag):
     """Whoever comes in the middle still gets the vehicle and all road up to then, as from the first nodes."""
     imu = observer.collect(Imu, "powertrain/imu", DEEP)

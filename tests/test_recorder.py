@@ -264,6 +264,7 @@ def test_no_sample_before_the_recorder_is_reached(start_node, observer):
     assert len(heard) == 50
 
 
+@pytest.mark.slow(reason="the same real recorder")
 def test_latched_text_of_another_node_is_recorded(start_node, observer, tmp_path):
     """A topic published once before the recorder came is in the bag."""
     publisher = observer.node.create_publisher(String, "note", LATCHED_QOS)

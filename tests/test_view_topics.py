@@ -57,6 +57,7 @@ def drive(start_node, observer, tmp_path):
     return run
 
 
+@pytest.mark.slow(reason="drives the run again in this process")
 def test_frames_of_a_run_in_lockstep(drive):
     """All kinds arrive and fit each other; the poses in the bag are those of driving it again, to the last digits."""
     bag, got = drive(duration=0.6)

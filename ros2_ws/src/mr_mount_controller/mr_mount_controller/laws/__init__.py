@@ -34,7 +34,7 @@ def shipped_laws() -> list[str]:
     >>> len(shipped_laws())
     9
     """
-    return [name for name in known_laws() if find_law(name).__module__.startswith(f"{__name__}.")]
+    return sorted({entry.name for entry in entry_points(group=GROUP) if entry.value.startswith(f"{__name__}.")})
 
 
 def find_law(name: str) -> type[ControlLaw]:

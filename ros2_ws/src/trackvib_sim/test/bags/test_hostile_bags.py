@@ -56,6 +56,7 @@ def _is_refused(bag):
     return False
 
 
+@pytest.mark.slow(reason="sixty bags for each compression")
 @settings(max_examples=60, deadline=None)
 @given(draw=st.data())
 def test_repair_keeps_every_intact_chunk(sound, draw):
@@ -87,6 +88,7 @@ def test_a_file_by_which_nothing_is_known_is_refused(tmp_path):
     assert _is_refused(tmp_path)
 
 
+@pytest.mark.slow(reason="every bit of every head")
 def test_one_flipped_bit_in_a_head_costs_no_message():
     """In opcode, length or the length of the contents of any chunk; and the bag is read as it is."""
     data = sound_file()

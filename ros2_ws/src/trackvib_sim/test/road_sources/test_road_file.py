@@ -172,6 +172,7 @@ ITEMS = ["class", "level", "waviness", "lowest", "highest", "seed", "level_until
          "wavelength", "count"]  # fmt: skip
 
 
+@pytest.mark.slow(reason="a road of every kind of item")
 @settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     ground=st.dictionaries(st.sampled_from(ITEMS), SCALARS, max_size=5),

@@ -117,6 +117,7 @@ def test_sensors_are_those_of_an_inertial_navigator(simulation, rough, easy_teet
     assert np.abs(expected_velocity[:, 2]).max() > 0.02
 
 
+@pytest.mark.slow(reason="seconds of the vehicle with its engine")
 @pytest.mark.analytic
 @pytest.mark.parametrize("imposed", [False, True])
 def test_standing_vehicle_vibrates_in_the_engines_orders(simulation, level, imposed):

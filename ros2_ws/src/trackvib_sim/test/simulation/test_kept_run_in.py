@@ -34,6 +34,7 @@ def test_kept_and_fresh_are_the_same(folder, vehicle, monkeypatch):
         assert all(map(np.array_equal, ours, done))
 
 
+@pytest.mark.slow(reason="runs in four vehicles")
 def test_what_differs_is_kept_apart(folder, vehicle):
     """Another speed, rate or vehicle has a run-in of its own."""
     heavier = vehicle.model_copy(update={"hull": vehicle.hull.model_copy(update={"mass": vehicle.hull.mass + 1.0})})
@@ -44,6 +45,7 @@ def test_what_differs_is_kept_apart(folder, vehicle):
     assert len(list(folder.iterdir())) == 4
 
 
+@pytest.mark.slow(reason="runs in the vehicle three times")
 def test_a_damaged_file_is_done_again(folder, vehicle):
     first = run_in(vehicle)
     (file,) = folder.iterdir()

@@ -60,6 +60,7 @@ def test_a_broken_file_counts_as_missing(tmp_path, content):
     assert store.load(CASE) == RESULTS[0]
 
 
+@pytest.mark.slow(reason="a fresh process that imports everything")
 def test_every_module_that_a_drive_runs_makes_results_void():
     """What a fresh process imports for a drive is among the modules whose change is noticed."""
     drives = "trackvib_sim.studies.case, trackvib_sim.studies.controllers.scenario"

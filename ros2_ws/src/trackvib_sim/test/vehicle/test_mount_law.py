@@ -48,6 +48,7 @@ def led(mounts, fields, here, there, steps=1000):
     return -0.5 * ((force[1:] + force[:-1]) * np.diff(places, axis=0)).sum()
 
 
+@pytest.mark.slow(reason="many sequences of moves, one by one")
 @pytest.mark.property
 @given(moves=MOVES, first=st.floats(0.0, 4.0))
 def test_passive_from_rest_under_any_current(unloaded, moves, first):

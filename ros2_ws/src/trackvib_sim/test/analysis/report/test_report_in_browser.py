@@ -60,6 +60,7 @@ def opened(request, browser, page):
     return browser
 
 
+@pytest.mark.slow(reason="starts a browser")
 def test_report_opens_draws_and_fits(opened, page):
     """No word in the console, no request but for the file, every figure with data, nothing wider than the screen."""
     assert opened.get_log("browser") == []

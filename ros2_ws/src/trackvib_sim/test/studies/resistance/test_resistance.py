@@ -41,6 +41,7 @@ def test_force_without_the_account_is_the_same(vehicle, rolled, simulation, leve
     assert work / way == pytest.approx(force(rolled), rel=0.03)
 
 
+@pytest.mark.slow(reason="rolls each vehicle for seconds")
 @pytest.mark.property
 def test_dry_bearings_take_force_and_oil_does_not(vehicle, rolled, changed):
     """Without viscous friction of the pins the pins take nothing; the vehicle rolls easier."""

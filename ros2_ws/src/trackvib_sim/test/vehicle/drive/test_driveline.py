@@ -47,6 +47,7 @@ def test_a_steady_torque_comes_through_whole(driveline):
     assert shaft.twist[0] == pytest.approx(2e4 / driveline.stiffness, rel=1e-3)
 
 
+@pytest.mark.slow(reason="seconds of the driveline at each frequency")
 @pytest.mark.analytic
 @pytest.mark.parametrize("frequency", [2.0, 10.0, 55.0])
 def test_ripple_comes_through_as_stiffness_and_inertia_let_it(driveline, frequency):
@@ -62,6 +63,7 @@ def test_ripple_comes_through_as_stiffness_and_inertia_let_it(driveline, frequen
     assert np.ptp(last) / 2e3 == pytest.approx(abs(spring / (spring - inertia * omega**2)), rel=0.03)
 
 
+@pytest.mark.slow(reason="drives through all gears")
 @pytest.mark.property
 def test_gears_are_shifted_up_and_down(driveline):
     """A vehicle that runs up and down goes through all gears one by one, the engine within its range but for idle."""

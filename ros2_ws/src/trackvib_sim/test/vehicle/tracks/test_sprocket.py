@@ -135,6 +135,7 @@ def _polar(distance, angle):
     return np.array([distance * np.cos(angle), distance * np.sin(angle)])
 
 
+@pytest.mark.slow(reason="many paths of a pin, step by step")
 @pytest.mark.property
 @settings(max_examples=60)
 @given(seed=SEEDS)

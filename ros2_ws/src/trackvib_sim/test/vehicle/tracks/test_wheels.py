@@ -45,6 +45,7 @@ def _hub(x, z, vx=0.0, vy=0.0, vz=0.0, spin=0.0):
     return Hub(x, 0.0, z, vx, vy, vz, spin, 0.0, 0.0)
 
 
+@pytest.mark.slow(reason="many polygons, step by step")
 @settings(max_examples=30)
 @given(bends=BENDS, depth=st.floats(0.0, 0.02))
 def test_rolling_over_the_polygon_has_no_steps(system, bends, depth):
