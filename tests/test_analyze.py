@@ -86,6 +86,7 @@ def test_a_cut_bag_counts_and_is_named(start_cli, bag):
     assert "was cut short" in analyze.output and "trackvib bag repair" in analyze.output
 
 
+@SLOW
 def test_help_speaks_of_the_report(start_cli):
     """And of the least settling time."""
     analyze = start_cli("analyze", "--help")
@@ -93,7 +94,6 @@ def test_help_speaks_of_the_report(start_cli):
     assert "HTML report" in analyze.output and "2 to 1000000 s" in " ".join(analyze.output.split())
 
 
-@SLOW
 def test_brackets_in_a_path_are_printed(start_cli, tmp_path, bag):
     """They are no commands to whatever prints."""
     (tmp_path / "runs[old]").mkdir()

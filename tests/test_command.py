@@ -66,6 +66,7 @@ def test_stand_in_names_what_exists(run):
     assert code == 2 and "invalid choice: 'bag'" in output
 
 
+@pytest.mark.slow(reason="a real node")
 def test_stand_in_runs_a_node(start):
     """It becomes the node: parameters arrive, and the node's exit code is its own."""
     node = start([sys.executable, STAND_IN, "run", "trackvib_sim", "simulator", "--ros-args", "-p", "speed:=99.0"])

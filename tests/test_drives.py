@@ -107,6 +107,7 @@ def test_the_road_follows_the_distance_along_the_path(start_node, observer):
     assert min(starts) >= 370.0
 
 
+@pytest.mark.slow(reason="each case starts the command line")
 @pytest.mark.parametrize(
     ("text", "words"),
     [

@@ -49,6 +49,7 @@ def test_columns_and_numbers(recorded_run, old):
         assert repr(getattr(found[0], part)) == repr(getattr(found[1], part))
 
 
+@pytest.mark.slow(reason="records a whole run")
 @pytest.mark.parametrize(("topic", "kind"), [("/mount_state", MountState), ("/coil_current", CoilCurrent)])
 def test_arrays_of_two_become_sequences_of_two(recorded_run, old, topic, kind):
     """With every number, stamp and frame; those of today are left alone."""
@@ -58,6 +59,7 @@ def test_arrays_of_two_become_sequences_of_two(recorded_run, old, topic, kind):
     assert len(then) == 3200 and then == now
 
 
+@pytest.mark.slow(reason="records a whole run")
 def test_only_what_has_changed_is_turned(recorded_run, old):
     """And what is damaged is refused as ever."""
     with OpenBag(recorded_run / "bag") as reader:

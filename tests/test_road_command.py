@@ -66,6 +66,7 @@ BAD = {
 }
 
 
+@pytest.mark.slow(reason="many files, each by two commands")
 @pytest.mark.property
 @pytest.mark.parametrize("verb", ["road", "run"])
 @pytest.mark.parametrize("name", [*BAD, "loop.csv", "pipe.crg", "zero.csv", "folder.yaml", "x" * 300 + ".csv"])

@@ -112,6 +112,7 @@ def test_bad_choices_are_refused(view, tmp_path, arguments, words):
     assert [path.name for path in tmp_path.iterdir() if not path.name.startswith("process_")] == []
 
 
+@pytest.mark.slow(reason="each case starts the command line")
 @pytest.mark.parametrize(
     ("edit", "words"),
     [

@@ -1,5 +1,6 @@
 """Control laws: one per file, and the contract they fulfil (`ControlLaw`). No ROS."""
 
+from functools import cache
 from importlib import import_module
 from importlib.metadata import entry_points
 
@@ -22,7 +23,7 @@ def known_laws() -> list[str]:
     >>> "skyhook" in known_laws()
     True
     """
-    return sorted({entry.name for entry in entry_points(group=GROUP)})
+    return sorted(_installed())
 
 
 def shipped_laws() -> list[str]:
@@ -34,7 +35,7 @@ def shipped_laws() -> list[str]:
     >>> len(shipped_laws())
     9
     """
-    return sorted({entry.name for entry in entry_points(group=GROUP) if entry.value.startswith(f"{__name__}.")})
+    return sorted(name for name, place in _installed().items() if place.startswith(f"{__name__}."))
 
 
 def find_law(name: str) -> type[ControlLaw]:
@@ -57,15 +58,23 @@ def find_law(name: str) -> type[ControlLaw]:
     >>> law.firm_current  # A
     2.5
     """
-    for entry in entry_points(group=GROUP):
-        if entry.name == name:
-            return _load(name, entry.value)
+    if name in _installed():
+        return _load(name, _installed()[name])
     if not name.partition(":")[2]:
         raise ParameterError(
             f"parameter 'law' is {name!r}, must be one of {', '.join(known_laws())}, or package.module:Class"
             f"{suggestion(name, known_laws())}"
         )
     return _load(name, name)
+
+
+@cache
+def _installed():
+    """Return places of laws by their names: installed packages are looked through once in a process."""
+    places = {}
+    for entry in entry_points(group=GROUP):
+        places.setdefault(entry.name, entry.value)
+    return places
 
 
 def _load(name, place):

@@ -142,6 +142,7 @@ def test_what_is_too_large_is_named_with_what_is_accepted(tmp_path):
         largest_chunk.reset(token)
 
 
+@pytest.mark.slow(reason="many bags, each by every way of reading")
 def test_odd_folders(tmp_path):
     """Links, pipes, folders and texts in the place of files: nothing is overwritten, nothing hangs."""
     for name, bag, victim in odd_folders(tmp_path, sound_file()):

@@ -75,6 +75,7 @@ def ends(data):
     return np.array(found)
 
 
+@pytest.mark.slow(reason="eighty bags for each compression")
 @pytest.mark.property
 @settings(max_examples=80, deadline=None)
 @given(part=st.floats(0.0, 1.0))

@@ -76,6 +76,7 @@ def test_stamps_are_exact(reference):
     assert (reference.current == 1.0).all()
 
 
+@pytest.mark.slow(reason="seconds of the vehicle")
 @pytest.mark.analytic
 def test_sensors_are_those_of_an_inertial_navigator(simulation, rough, easy_teeth):
     """From the first state on, integrating the sensors' readings gives attitude and velocity of their points.

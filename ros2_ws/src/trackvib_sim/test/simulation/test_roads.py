@@ -28,6 +28,7 @@ def hubs(simulation, drive):
     return measure
 
 
+@pytest.mark.slow(reason="drives a vehicle over each step")
 @pytest.mark.analytic
 @pytest.mark.parametrize(("side", "rises"), [("both", (HEIGHT, HEIGHT)), ("left", (HEIGHT, 0.0))])
 def test_a_step_moves_wheels_by_its_height(hubs, side, rises):

@@ -115,6 +115,7 @@ def _oscillating(poles):
     return poles[poles.imag > 1.0]
 
 
+@pytest.mark.slow(reason="several vehicles come to rest")
 @pytest.mark.property
 def test_mounts_stiffen_the_powertrain(vehicle, unbraked):
     """The powertrain's pitching on its mounts rises with the current, and the vehicle is at rest at each.

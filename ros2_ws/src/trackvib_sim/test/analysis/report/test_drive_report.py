@@ -29,6 +29,7 @@ def drives():
     return [build_report_data(each, analyse(each)) for each in (driving, made._replace(path="steady"))]
 
 
+@pytest.mark.slow(reason="reports of whole drives")
 @pytest.mark.property
 def test_a_drive_has_its_sections_and_a_steady_run_has_not(drives):
     """By speed, orders and Campbell diagrams only where a speed varies; the way is always there."""
@@ -66,6 +67,7 @@ def test_figures_and_tables_show_the_numbers(drives):
         assert len(set(names)) == len(names) and any("order 6" in name for name in names)
 
 
+@pytest.mark.slow(reason="reports of whole drives")
 @pytest.mark.property
 @pytest.mark.parametrize("count", [1, 2])
 def test_page_is_valid(drives, tmp_path, count):

@@ -14,7 +14,7 @@ from trackvib_sim.analysis.report.page import write_report
 
 from ..hostile_recordings import hostile_report_data
 
-pytestmark = pytest.mark.system
+pytestmark = [pytest.mark.system, pytest.mark.slow(reason="starts a browser")]
 
 SIZES = {"desktop": (1300, 900, False), "phone": (390, 844, True)}
 PATIENCE = 600.0  # s; only a bound for what hangs
@@ -60,7 +60,6 @@ def opened(request, browser, page):
     return browser
 
 
-@pytest.mark.slow(reason="starts a browser")
 def test_report_opens_draws_and_fits(opened, page):
     """No word in the console, no request but for the file, every figure with data, nothing wider than the screen."""
     assert opened.get_log("browser") == []

@@ -9,6 +9,7 @@ from scipy.linalg import eig
 from trackvib_sim.rui.state import free_bodies
 
 STEP = 1e-30
+ONE = np.eye(3)
 
 
 def _cross(v):
@@ -19,9 +20,9 @@ def _rotation(v):
     """Rotation matrix of a vector, complex allowed (Rodrigues; series near zero)."""
     square, V = np.sum(v * v), _cross(v)
     if abs(square) < 1e-8:
-        return np.eye(3) + (1.0 - square / 6.0) * V + (0.5 - square / 24.0) * V @ V
+        return ONE + (1.0 - square / 6.0) * V + (0.5 - square / 24.0) * V @ V
     angle = np.sqrt(square)
-    return np.eye(3) + np.sin(angle) / angle * V + (1.0 - np.cos(angle)) / square * V @ V
+    return ONE + np.sin(angle) / angle * V + (1.0 - np.cos(angle)) / square * V @ V
 
 
 def _vector(R):
@@ -35,7 +36,7 @@ def _vector(R):
 
 def _quaternion_matrix(w, x, y, z):
     v = np.array([x, y, z])
-    return np.eye(3) + 2.0 * w * _cross(v) + 2.0 * _cross(v) @ _cross(v)
+    return ONE + 2.0 * w * _cross(v) + 2.0 * _cross(v) @ _cross(v)
 
 
 class Dense:
@@ -99,7 +100,7 @@ class Dense:
             hinge = body.hinge
             if row in of_free:
                 k = of_free[row]
-                shift, turn, motions = np.zeros(3), np.eye(3), []
+                shift, turn, motions = np.zeros(3), ONE, []
                 if row in self.free:
                     j = 6 * self.free.index(row)
                     shift, turn = q[j : j + 3], _rotation(q[j + 3 : j + 6])
@@ -135,10 +136,10 @@ class Dense:
         for j, kind, axis, point in moved_by[row]:
             arm = origin[row] + lever - (point if point is not None else 0.0)
             if kind == "free":
-                linear[:, j : j + 3], linear[:, j + 3 : j + 6] = np.eye(3), -_cross(arm)
-                angular[:, j + 3 : j + 6] = np.eye(3)
+                linear[:, j : j + 3], linear[:, j + 3 : j + 6] = ONE, -_cross(arm)
+                angular[:, j + 3 : j + 6] = ONE
             elif kind == "revolute":
-                linear[:, j], angular[:, j] = np.cross(axis, arm), axis
+                linear[:, j], angular[:, j] = _cross(axis) @ arm, axis
             else:
                 linear[:, j] = axis
         return (linear, angular) if np.iscomplexobj(origin[row]) else (linear.real, angular.real)

@@ -20,6 +20,7 @@ def rolled(vehicle):
     return roll(vehicle, FAST)
 
 
+@pytest.mark.slow(reason="rolls the vehicle for seconds")
 @pytest.mark.property
 def test_work_of_the_drive_is_found_again(rolled):
     """To 2 % as heat of one part or another, none of which gives any; the speed is held."""

@@ -151,6 +151,7 @@ def test_what_is_no_file_is_refused(tmp_path):
                 drive_text(path)
 
 
+@pytest.mark.slow(reason="reads a file of many points")
 @pytest.mark.property
 def test_too_many_points_are_refused():
     """The number of points is bounded."""

@@ -73,7 +73,9 @@ def _through(number, off, index):
 
 def _medians(index, values, length):
     """Return mean numbers and median values of parts of a length, the last one as long or longer."""
-    count = max(len(values) // length, 1)
-    edges = np.append(np.arange(count) * length, len(values))
-    parts = [slice(*each) for each in zip(edges[:-1], edges[1:], strict=True)]
-    return np.array([index[part].mean() for part in parts]), np.array([np.median(values[part]) for part in parts])
+    last = (max(len(values) // length, 1) - 1) * length
+    numbers, parts = (each[:last].reshape(-1, length) for each in (index, values))
+    return (
+        np.append(numbers.mean(axis=1), index[last:].mean()),
+        np.append(np.median(parts, axis=1), np.median(values[last:])),
+    )

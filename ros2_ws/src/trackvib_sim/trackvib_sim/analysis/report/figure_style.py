@@ -20,6 +20,20 @@ GRID = "rgba(128,128,128,0.28)"
 LINE_COLOURS = {"link passing": "rgba(128,128,128,0.9)", "engine order": "rgba(190,140,20,0.95)"}
 LABEL_WIDTH = 0.045  # of the width of a third of a page, of a name that stands upright
 _LONGEST = 48  # characters of a name in a legend
+_AXIS = {"gridcolor": GRID, "zerolinecolor": GRID, "linecolor": GRID, "showline": True, "mirror": True}
+_LOOKS = go.layout.Template(  # made once: its items are checked, which takes longer than to draw
+    layout={
+        "font": {"family": "system-ui, sans-serif", "size": 12},
+        "title": {"x": 0.0, "xref": "container", "xanchor": "left", "y": 1.0, "yanchor": "top",
+                  "pad": {"t": 8, "l": 8}, "font": {"size": 14}},
+        "paper_bgcolor": "rgba(0,0,0,0)",
+        "plot_bgcolor": "rgba(0,0,0,0)",
+        "modebar": {"bgcolor": "rgba(0,0,0,0)", "color": "rgba(128,128,128,0.7)", "activecolor": "rgba(128,128,128,1)"},
+        "legend": {"orientation": "h", "x": 0.0, "y": 1.0, "yanchor": "bottom", "bgcolor": "rgba(0,0,0,0)"},
+        "xaxis": {**_AXIS, "title": {"standoff": 6}},
+        "yaxis": {**_AXIS, "title": {"standoff": 4}},
+    }
+)  # fmt: skip
 
 
 def mount_colour(index):
@@ -35,22 +49,8 @@ def plain(text):
 
 def styled(figure, height, title=None):
     """Give a figure its looks; returns it."""
-    figure.update_layout(
-        template=None,
-        height=height,
-        title={"text": title, "x": 0.0, "xref": "container", "xanchor": "left", "y": 1.0, "yanchor": "top",
-               "pad": {"t": 8, "l": 8}, "font": {"size": 14}},
-        margin={"l": 62, "r": 12, "t": 66 if title else 34, "b": 46},
-        font={"family": "system-ui, sans-serif", "size": 12},
-        paper_bgcolor="rgba(0,0,0,0)",
-        plot_bgcolor="rgba(0,0,0,0)",
-        modebar={"bgcolor": "rgba(0,0,0,0)", "color": "rgba(128,128,128,0.7)", "activecolor": "rgba(128,128,128,1.0)"},
-        legend={"orientation": "h", "x": 0.0, "y": 1.0, "yanchor": "bottom", "bgcolor": "rgba(0,0,0,0)"},
-    )  # fmt: skip
-    lines = {"gridcolor": GRID, "zerolinecolor": GRID, "linecolor": GRID, "showline": True, "mirror": True}
-    figure.update_xaxes(**lines, title_standoff=6)
-    figure.update_yaxes(**lines, title_standoff=4)
-    return figure
+    margin = {"l": 62, "r": 12, "t": 66 if title else 34, "b": 46}
+    return figure.update_layout(template=_LOOKS, height=height, title_text=title, margin=margin)
 
 
 def line(points, name, colour, **options):
@@ -64,10 +64,13 @@ def over_frequency(traces, analysis, title, unit):
     figure = styled(go.Figure(traces), 340, title)
     top = 0.5 * analysis.rate
     low, high = log10(LOWEST_FREQUENCY), log10(max(top, 2.0 * LOWEST_FREQUENCY))
-    figure.update_xaxes(type="log", range=(low, high), tickvals=ONE_TWO_FIVE, title_text="frequency, Hz")
-    figure.update_yaxes(title_text=unit)
-    _mark(figure, [each for each in analysis.lines if LOWEST_FREQUENCY <= each.frequency <= top], low, high)
-    return figure
+    shapes, names = _marks([each for each in analysis.lines if LOWEST_FREQUENCY <= each.frequency <= top], low, high)
+    return figure.update_layout(
+        xaxis={"type": "log", "range": (low, high), "tickvals": ONE_TWO_FIVE, "title": {"text": "frequency, Hz"}},
+        yaxis={"title": {"text": unit}},
+        shapes=shapes,
+        annotations=names,
+    )
 
 
 def density(traces, analysis, title):
@@ -90,33 +93,34 @@ def coherence(traces, analysis, title):
     return over_frequency(traces, analysis, title, "coherence, -").update_yaxes(range=(0.0, 1.02))
 
 
-def _mark(figure, lines, low, high):
-    """Mark lines of known cause, or the ranges over which they moved.
+def _marks(lines, low, high):
+    """Return shapes and names that mark lines of known cause, or the ranges over which they moved.
 
     Names stand upright: of link passing at the top, of the engine at the bottom.
     """
+    shapes, names = [], []
     for kind, colour in LINE_COLOURS.items():
         passing = kind == "link passing"
         kept = [line for line in lines if line.name.startswith(kind)]
-        named = [0.5 * log10(line.lowest * line.highest) if line.sweeps else log10(line.frequency) for line in kept]
-        style = {"color": colour, "width": 1, "dash": "dot" if passing else "dash"}
-        for each in kept:
-            if each.sweeps:
-                figure.add_vrect(
-                    x0=each.lowest, x1=each.highest, fillcolor=colour, opacity=0.2, line_width=0, layer="below"
-                )
-            else:
-                figure.add_shape(
-                    type="line", x0=each.frequency, x1=each.frequency, y0=0.0, y1=1.0, yref="paper", layer="below",
-                    line=style,
-                )  # fmt: skip
-        for group in joined(named, LABEL_WIDTH * (high - low)):
+        whole = {"y0": 0.0, "y1": 1.0, "yref": "paper", "layer": "below"}
+        style = {"type": "line", "line": {"color": colour, "width": 1, "dash": "dot" if passing else "dash"}, **whole}
+        range_style = {"type": "rect", "fillcolor": colour, "opacity": 0.2, "line": {"width": 0}, **whole}
+        shapes += [
+            {"x0": each.lowest, "x1": each.highest, **range_style}
+            if each.sweeps
+            else {"x0": each.frequency, "x1": each.frequency, **style}
+            for each in kept
+        ]
+        places = [0.5 * log10(line.lowest * line.highest) if line.sweeps else log10(line.frequency) for line in kept]
+        for group in joined(places, LABEL_WIDTH * (high - low)):
             numbers = ", ".join(kept[each].name.rpartition(" ")[2] for each in group)
             words = f"order {numbers}" if not passing else "v/p" if numbers == "1" else f"{numbers} v/p"
-            figure.add_annotation(
-                x=named[group[0]], y=1.0 if passing else 0.0, yref="paper", text=words, textangle=-90, showarrow=False,
-                xanchor="right", yanchor="top" if passing else "bottom", font_size=10, borderpad=0,
+            names.append(
+                {"x": places[group[0]], "y": 1.0 if passing else 0.0, "yref": "paper", "text": words, "textangle": -90,
+                 "showarrow": False, "xanchor": "right", "yanchor": "top" if passing else "bottom",
+                 "font": {"size": 10}, "borderpad": 0}
             )  # fmt: skip
+    return shapes, names
 
 
 def settling(figure, analysis):
