@@ -139,6 +139,7 @@ def test_an_engine_runs_up_while_the_vehicle_stands(start_cli, tmp_path):
     assert np.abs(drive.distance).max() < 0.01 and (drive.gear == 0).all()
 
 
+@pytest.mark.slow(reason="a real node")
 def test_gears_need_a_driveline(start_node):
     """A vehicle without one is named."""
     simulator = start_node("simulator", gears=True, vehicle_file=find_vehicle("m113"))

@@ -167,6 +167,7 @@ def test_launch_ends_its_nodes(start):
     assert process.output.count("process has finished cleanly") == 4, process.output
 
 
+@pytest.mark.slow(reason="waits for several commands")
 def test_launch_says_what_it_lacks(ros2, tmp_path):
     """A launch file that needs more of ROS 2's launch is refused before anything starts; so is a wrong argument."""
     file = tmp_path / "my.launch.py"

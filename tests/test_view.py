@@ -94,6 +94,7 @@ def test_saved_recording(view, tmp_path):
         assert f"/{entity}" in told["print"], entity
 
 
+@pytest.mark.slow(reason="each case starts the command line")
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -132,6 +133,7 @@ def test_bags_that_do_not_tell_enough(view, edited, edit, words):
     assert output.count("\n") == 1
 
 
+@pytest.mark.slow(reason="starts the command line")
 def test_a_run_in_real_time_needs_its_poses(view, edited):
     """Such a bag without frames says how to get them."""
 

@@ -95,6 +95,7 @@ def test_equilibrium_needs_no_rubber_mounts(changed, rows):
     assert angle[0] != 0.0 and abs(angle[0]) > abs(angle[1]) > 0.0
 
 
+@pytest.mark.slow(reason="vehicles of several weights come to rest")
 @pytest.mark.analytic
 @pytest.mark.parametrize("mass", [50e3, 54e3, 150e3])
 def test_vehicle_on_its_bump_stops_stands(changed, support_loads, mass):
