@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
+from scipy.signal import butter
 from trackvib_sim.road.iso8608 import Iso8608Road
 from trackvib_sim.simulation.readings import Readings, noise_level
 from trackvib_sim.simulation.sensing import BY_DEFAULT, ORDER, WIDEST, low_pass
@@ -56,6 +57,15 @@ def test_each_reads_at_its_turn(measured, drive):
         for row, name in enumerate(("chassis", "powertrain", "seat", "gun")):
             if name in read:
                 assert_array_equal(read[name], samples[k - 1, row])
+
+
+@pytest.mark.cross_engine
+@pytest.mark.parametrize(("corner", "rate"), [(400.0, 5e3), (400.0, 1e4), (20.0, 8e3), (123.4, 7e3), (1800.0, 4e3)])
+def test_sections_are_those_of_scipy(corner, rate):
+    """To rounding, but for the gain, which is 1 in every section of ours."""
+    b, a = np.split(butter(ORDER, corner, fs=rate, output="sos"), 2, axis=1)
+    expected = np.hstack((b * (a.sum(axis=1) / b.sum(axis=1))[:, None], a[:, 1:]))
+    assert_allclose(low_pass(corner, rate), expected, rtol=1e-12, atol=1e-14)
 
 
 @pytest.mark.parametrize("corner", [40.0, 57.0, 400.0, 4000.0])

@@ -10,9 +10,9 @@ from .run import run_loop
 from .view import Served
 
 
-def run_with_view(choosing, out):
+def run_with_view(choosing, out, lookout):
     """Do a run as `run.run_loop` does, and show it; its view stays until Ctrl-C. Raises as that does."""
-    run_loop(choosing, out, lambda choices, vehicle: _live_view(choices, vehicle, Terminal()))
+    run_loop(choosing, out, lookout, lambda choices, vehicle: _live_view(choices, vehicle, Terminal()))
 
 
 @contextmanager

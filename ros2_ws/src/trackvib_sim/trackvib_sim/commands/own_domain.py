@@ -1,20 +1,54 @@
-"""A ROS domain, or a namespace in it, held for one run."""
+"""A ROS domain, or a namespace in it, held for one run, and a look for who is in it already."""
 
+import multiprocessing
 import os
 import socket
 from contextlib import contextmanager
 from hashlib import sha256
 
+from ..nodes.forked_node import begin_program
 from .result_folder import CommandError
 
 HIGHEST_DOMAIN = 232  # of ROS 2; beyond it DDS has no ports
+_FORK = multiprocessing.get_context("fork")
+
+
+class Lookout:
+    """Looks in a process of its own whether a simulator runs already, while this one loads what a run needs."""
+
+    def __init__(self, namespace="/"):
+        self.namespace = namespace
+        self._found, there = _FORK.Pipe(duplex=False)
+        _FORK.Process(target=_look, args=(namespace, there), daemon=True).start()
+        there.close()
+
+    def simulator_is_there(self):
+        """Return what it has found, as soon as it has."""
+        try:
+            return self._found.recv()
+        except EOFError:  # it has ended without a word: what is wrong shows here
+            return _simulator_is_there(self.namespace)
+
+
+def _look(namespace, found):
+    begin_program("lookout")
+    silence = os.open(os.devnull, os.O_WRONLY)
+    for number in (1, 2):
+        os.dup2(silence, number)
+    found.send(_simulator_is_there(namespace))
+
+
+def _simulator_is_there(namespace):
+    from ..nodes.watch import Watch  # imported late: ROS 2 comes after the processes have been made
+
+    with Watch(namespace) as watch:
+        return watch.simulator_is_there()
 
 
 @contextmanager
-def own_domain(namespace="/"):
-    """Hold a namespace of the ROS domain against further runs; raise `CommandError` if it is impossible or taken."""
-    from ..nodes.watch import Watch  # imported late: ROS 2 comes after the processes have been made
-
+def own_domain(lookout):
+    """Hold the namespace of a `Lookout` against further runs; raise `CommandError` if it is impossible or taken."""
+    namespace = lookout.namespace
     domain = os.environ.get("ROS_DOMAIN_ID") or "0"
     if not (domain.isdecimal() and int(domain) <= HIGHEST_DOMAIN):
         raise CommandError(f"ROS_DOMAIN_ID is {domain!r}, accepted: a whole number from 0 to {HIGHEST_DOMAIN}")
@@ -28,7 +62,6 @@ def own_domain(namespace="/"):
         except OSError:
             raise taken from None
         # a simulator that was started by hand is seen if it makes itself known in time
-        with Watch(namespace) as watch:
-            if watch.simulator_is_there():
-                raise taken
+        if lookout.simulator_is_there():
+            raise taken
         yield

@@ -68,10 +68,13 @@ def replay(bag, verify, law, controller, out):
             run_replay_law(bag, law, out, console)
         else:
             from ..nodes.processes import LoopProcesses
+            from .own_domain import Lookout
 
+            lookout = Lookout()
             with LoopProcesses([] if controller == EXTERNAL else ["controller"]) as stock:
-                from .replay_controller import run_replay_controller  # loads ROS 2, after the process has been made
+                from .replay_controller import run_replay_controller  # loads ROS 2, after the processes have been made
 
-                run_replay_controller(bag, None if controller == EXTERNAL else controller, stock, out, console)
+                law = None if controller == EXTERNAL else controller
+                run_replay_controller(bag, law, stock, out, lookout, console)
     except (BagError, LawError, CommandError, ValueError, OSError) as error:
         fail(error, *((CANNOT_VERIFY, "cannot be verified") if verify else ()))

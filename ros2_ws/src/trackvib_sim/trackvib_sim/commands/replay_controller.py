@@ -30,10 +30,10 @@ _GAP = 2.5  # times the median step
 REPLAYED = "/replayed/current"  # topic of the new answers
 
 
-def run_replay_controller(bag, law, stock, out, console):
+def run_replay_controller(bag, law, stock, out, lookout, console):
     """Replay into a stock controller with a law, or with None into the one that the user runs.
 
-    `stock` is its `LoopProcesses`, made before ROS 2 was loaded.
+    `stock` is its `LoopProcesses` and `lookout` a `Lookout`, both made before ROS 2 was loaded.
 
     Leaves the recorded messages with the new answers as a bag, a summary, and a picture where there is something to
     compare, in the new folder `out`.
@@ -49,7 +49,7 @@ def run_replay_controller(bag, law, stock, out, console):
         raise BagError(f"bag {str(bag)!r} is the result of a replay into a controller; give {made_of} instead")
     summary = {"bag": str(bag), "controller": law or "external", "samples": len(recording.chassis.stamp)}
     title = f"{called(bag)} into {law or 'a controller'}"
-    with own_domain(), all_or_nothing(out) as folder:
+    with own_domain(lookout), all_or_nothing(out) as folder:
         replayed, interrupt = _replay_into_bag(recording, stock, law, folder, console)
         summary |= {
             "answered": len(replayed),

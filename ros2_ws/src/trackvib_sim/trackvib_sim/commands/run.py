@@ -21,13 +21,14 @@ from .own_domain import own_domain
 from .result_folder import CommandError, Refused, all_or_nothing
 from .run_choices import choose
 
-_LOOK = 0.2  # s between looks at processes and progress
+_LOOK = 0.05  # s between looks at processes and progress
 
 
-def run_loop(choosing, out, viewing=lambda _choices, _vehicle: nullcontext()):
+def run_loop(choosing, out, lookout, viewing=lambda _choices, _vehicle: nullcontext()):
     """Do a run; everything it leaves lies in one new folder, `out` or one named by time, road and speed.
 
-    `choosing` are the arguments of `run_choices.choose` by name. `viewing` makes a context manager for the time of the
+    `choosing` are the arguments of `run_choices.choose` by name, `lookout` is the `Lookout` in their namespace that has
+    been at work since. `viewing` makes a context manager for the time of the
     run from its `Choices` and vehicle (`parameters.Vehicle`), entered once its processes have been made.
 
     Raises
@@ -43,7 +44,7 @@ def run_loop(choosing, out, viewing=lambda _choices, _vehicle: nullcontext()):
     console = Terminal()
     choices, parameters, vehicle = choose(**choosing)
     executables = ONE_PROCESS if choices.one_process else FOUR_PROCESSES
-    with LoopProcesses(executables) as processes, viewing(choices, vehicle), own_domain(choices.namespace):
+    with LoopProcesses(executables) as processes, viewing(choices, vehicle), own_domain(lookout):
         name = f"{datetime.now():%Y%m%dT%H%M%S}_{_short(choices.road)}_{_pace(choices)}"
         with all_or_nothing(out or Path("runs") / name, _worth_keeping) as folder:
             (folder / "log").mkdir()
@@ -140,13 +141,13 @@ def _follow(processes, choices, console):
     )
     with Watch(choices.namespace) as watch, Progress(*columns, console=console) as progress:
         task = progress.add_task("starting", total=choices.duration, pace="-")
-        from . import run_summary  # noqa: F401  what measures the run is loaded while its nodes start
-
         values, over = {}, False
         while not over:
             over = bool(processes.ended())  # what was said at last is still to be heard
             values = watch.look(0.0 if over and values else _LOOK)
             if values:
+                from . import run_summary  # noqa: F401  what measures the run is loaded while it goes on
+
                 progress.update(
                     task,
                     description=values["state"],

@@ -44,8 +44,11 @@ def run(out, files, namespace, one_process, view, **options):
     """Run the closed loop as four ROS 2 nodes; writes a bag, a summary and a picture."""
     if sys.stderr.isatty():
         click.echo("loading the simulation ...", err=True)
+    from .own_domain import Lookout
+
+    lookout = Lookout(namespace)
     from .result_folder import CommandError
-    from .run import run_loop  # imported late: neither --help nor the line above need wait for it
+    from .run import run_loop  # imported late: neither --help nor the line above nor the lookout need wait for it
 
     given = {name: value for name, value in {**options, "view": view or None}.items() if value is not None}
     choosing = {"given": given, "files": files, "namespace": namespace, "one_process": one_process, "view": view}
@@ -53,8 +56,8 @@ def run(out, files, namespace, one_process, view, **options):
         if view:
             from .live_view import run_with_view
 
-            run_with_view(choosing, out)
+            run_with_view(choosing, out, lookout)
         else:
-            run_loop(choosing, out)
+            run_loop(choosing, out, lookout)
     except CommandError as error:
         fail(error)

@@ -38,17 +38,21 @@ _SETTLING = 0.3  # s without a new partner; a controller's two subscriptions are
 class Gathering:
     """Tells when all partners are there and nobody else has come for a moment."""
 
-    def __init__(self, present):
-        """`present()` returns one number a kind of partner: how many there are, or whether there is what it brings."""
-        self._present = present
+    def __init__(self, present, ready=lambda: True):
+        """`present()` returns how many partners there are of each kind, `ready()` whether all else is there."""
+        self._present, self._ready = present, ready
         self._seen, self._since = None, 0.0
 
-    def complete(self):
-        """Return whether it is time to begin."""
+    def look(self):
+        """Note who is there now; returns whether all are, and have been for a moment."""
         now = self._present()
         if now != self._seen:
             self._seen, self._since = now, time.monotonic()
         return all(now) and time.monotonic() - self._since > _SETTLING
+
+    def complete(self):
+        """Return whether it is time to begin."""
+        return self.look() and self._ready()
 
 
 class SecondClock:
@@ -66,10 +70,18 @@ class SecondClock:
         self._own = 0  # the latest time that the node has ever published, ns: its own clock goes back, too
         self._topic = node.listen(Clock, topics.CLOCK, self._on_clock, CLOCK_QOS).topic_name
 
-    def listen(self):
-        """Have listened for as long as a simulator that is there already needs to make itself known; `refuse` it."""
+    def listen(self, meanwhile):
+        """Have listened for as long as a simulator that is there already needs to make itself known; `refuse` it.
+
+        `meanwhile()` is called again and again.
+        """
+
+        def heard():
+            meanwhile()
+            return self._heard > -inf
+
         left = self._since + _LISTENING - time.monotonic()
-        self._node.spin_until(lambda: self._heard > -inf, max(left, _LOOK))
+        self._node.spin_until(heard, max(left, _LOOK))
         if self._heard > -inf:
             self._node.spin_until(lambda: self.ahead, _AGAIN)
         self.refuse()

@@ -57,7 +57,7 @@ class RecorderNode(LoopNode):
         self._recorded = self.create_publisher(Time, topics.RECORDED, LATCHED_QOS)
         self._recorded_answers = self.create_publisher(Time, topics.RECORDED_ANSWERS, LATCHED_QOS)
         self._recorded_topics = self.create_publisher(String, topics.RECORDED_TOPICS, LATCHED_QOS)
-        self._received, self._failure = 0, None
+        self._received = 0
         self._flushed = time.monotonic()
 
     def run(self):
@@ -93,7 +93,8 @@ class RecorderNode(LoopNode):
         self.spin_until(lambda: all(map(is_known, publishing_nodes(self, chosen))), _NAMES_TIMEOUT)
         self._describe(chosen)  # before the loop runs: it takes its time
         self._take_up(chosen)
-        self.spin_until(lambda: self._failure or all(each.get_publisher_count() for each in self._taken))
+        self.spin_until(lambda: all(each.get_publisher_count() for each in self._taken))
+        _stand_back()
         self._report()  # whoever waits for a recorder starts with this
         self.get_logger().info(plain_line(f"recording {len(self._topics)} topics to {self._bag.path}"))
         looked = time.monotonic()
@@ -202,19 +203,17 @@ class RecorderNode(LoopNode):
         end = time.monotonic() + _FLUSH
         while True:
             self.spin_once(0.0)
-            if self._failure is not None:
-                raise self._failure
             if self._received == before or time.monotonic() > end:
                 return self._received > start
             before = self._received
 
     def _on_message(self, topic, data):
-        if self._bag is None or self._failure is not None:
+        if self._bag is None or self.failure is not None:
             return
         try:
             self._write(topic, data)
         except (OSError, NodeError) as error:  # raised later: what leaves a callback is logged at length
-            self._failure = error
+            self.failure = error
 
     def _write(self, topic, data):
         time_in_bag = self._times.add(topic.name, topic.type_name, topic.stamped, data)
@@ -228,9 +227,12 @@ class RecorderNode(LoopNode):
             self._bag.add_attachment("vehicle.yaml", deserialize_message(data, message_type(topic.type_name)).data)
 
 
-def main(args=None):
-    """Run the node."""
-    # The loop goes first: a recorder that is served at once takes the processor from it for every message.
+def _stand_back():
+    """Let the loop go first: a recorder that is served at once takes the processor from it for every message."""
     os.nice(_NICE)
     os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))  # nor does a message that comes interrupt the loop
+
+
+def main(args=None):
+    """Run the node."""
     sys.exit(run_node(RecorderNode, args))

@@ -80,9 +80,10 @@ class SimulatorNode(LoopNode):
     def run(self):
         """Wait for the partners, then run period after period until the duration is over or a stop is asked for."""
         schedule(self.settings)
-        self._second_clock.listen()
+        gathering = Gathering(self._present, self._ready)
+        self._second_clock.listen(gathering.look)
         self._output.introduce()
-        self._wait_for_partners()
+        self._wait_for_partners(gathering)
         self._second_clock.refuse()
         periods = math.ceil(self.settings["duration"] * self._simulation.settings.rates.control)
         self._control.state = "running"
@@ -166,23 +167,24 @@ class SimulatorNode(LoopNode):
 
     # --- waiting ---
 
-    def _wait_for_partners(self):
+    def _wait_for_partners(self, gathering):
         """Wait until road, controller and recorder are there and nobody else has come for a moment."""
         others = ", a recorder" * bool(self._recorder) + ", a live view" * self.settings["wait_for_view"]
         self.get_logger().info(
             f"waiting for a road on {topics.ROAD_PROFILE}, a controller that subscribes to {topics.CHASSIS_IMU} or "
             f"{topics.POWERTRAIN_IMU} and answers on {topics.COIL_CURRENT}{others}"
         )
-        gathering = Gathering(self._present)
         self._stand_until(lambda: gathering.complete() or self._second_clock.ahead, self._deaf.tell)
         if not self.stopping():
             self.get_logger().info("all partners are present, running")
 
     def _present(self):
+        return self._answers.count(), sum(self._output.listeners())
+
+    def _ready(self):
         recorder = self._recorder is None or self._recorder.reached
         view = not self.settings["wait_for_view"] or view_is_reached(self)
-        listeners = sum(self._output.listeners())
-        return self._simulation.road_is_enough(), self._answers.count(), listeners, recorder, view
+        return self._simulation.road_is_enough() and recorder and view
 
     def _stand_until(self, condition, meanwhile=lambda: None):
         """Wait for a condition, a reset or a stop; every now and then say in which state and at what time."""
