@@ -44,6 +44,7 @@ def test_a_run(start_cli, tmp_path, node):
     run = start_cli("run", "--law", "failing_laws:Late", "--out", "out", *node[1:])
     assert run.wait() == 1
     one_sentence(run.output, f"^error: '{node[0]}' ended with exit code 1: {LATE}")
+    assert run.output.splitlines()[-1] == "kept in out: bag, log"
     log = (tmp_path / "out" / "log" / f"{node[0]}.log").read_text()
     assert "Traceback" in log and "return 1.0 if sample.time < 0.1 else 1 / 0" in log
 

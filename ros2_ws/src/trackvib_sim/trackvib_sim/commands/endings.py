@@ -11,8 +11,8 @@ INTERRUPTED, UNREAD = 128 + signal.SIGINT, 128 + signal.SIGPIPE
 
 
 def fail(error, code=1, word="error"):
-    """Print an error, a line for each of its lines, and end the process with an exit code."""
-    say(f"{word}: {error}")
+    """Print an error, a line for each of its lines and notes, and end the process with an exit code."""
+    say("\n".join([f"{word}: {error}", *getattr(error, "__notes__", ())]))
     sys.exit(code)
 
 

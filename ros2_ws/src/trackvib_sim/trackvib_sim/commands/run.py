@@ -73,8 +73,12 @@ def _worth_keeping(folder, error):
         what = "bags are complete up to here"
     except BagError as damage:  # the recorder was not waited for
         what = str(damage)
-    error.args = (f"kept in {folder}: {', '.join(sorted(path.name for path in folder.iterdir()))}; {what}",)
+    error.args = (f"{_kept(folder)}; {what}",)
     return True
+
+
+def _kept(folder):
+    return f"kept in {folder}: {', '.join(sorted(path.name for path in folder.iterdir()))}"
 
 
 def _doubts(vehicle):
@@ -115,7 +119,10 @@ def _run_nodes(processes, choices, parameters, vehicle, folder, console):
         name = next(name for name in (*first, *codes) if codes[name])
         if codes[name] == REFUSED:
             raise Refused(f"'{name}' cannot run{processes.why(name)}")
-        raise CommandError(f"{_ending(name, codes[name], folder)}{processes.why(name)}")
+        failure = CommandError(f"{_ending(name, codes[name], folder)}{processes.why(name)}")
+        if folder.is_dir():  # nobody has taken it away meanwhile
+            failure.add_note(_kept(folder))
+        raise failure
     return interrupted
 
 
