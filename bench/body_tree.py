@@ -22,7 +22,8 @@ from trackvib_sim.rui.solve import accelerations
 from trackvib_sim.rui.state import no_loads, rest_state
 from trackvib_sim.rui.sweeps.articulated import new_cuts, open_cuts
 from trackvib_sim.rui.sweeps.kinematics import new_motion, update_motion
-from trackvib_sim.rui.sweeps.riccati import new_response, solve_accelerations
+from trackvib_sim.rui.sweeps.response import new_response
+from trackvib_sim.rui.sweeps.riccati import solve_accelerations
 from trackvib_sim.rui.sweeps.tree import build_tree, new_rows, to_lanes
 from trackvib_sim.vehicle.body_tree import build_body_table
 from trackvib_sim.vehicle.vehicle_file import read_vehicle

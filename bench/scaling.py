@@ -25,7 +25,8 @@ from trackvib_sim.rui.state import rest_state
 from trackvib_sim.rui.sweeps.articulated import apply_wrench, new_cuts, open_cuts
 from trackvib_sim.rui.sweeps.cells import columns
 from trackvib_sim.rui.sweeps.kinematics import new_motion, update_motion
-from trackvib_sim.rui.sweeps.riccati import ResponseOffset, new_response, solve_accelerations
+from trackvib_sim.rui.sweeps.response import ResponseOffset, new_response
+from trackvib_sim.rui.sweeps.riccati import solve_accelerations
 from trackvib_sim.rui.sweeps.tree import build_tree, new_rows, to_lanes
 from trackvib_sim.rui.table import Body, Hinge
 

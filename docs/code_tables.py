@@ -13,7 +13,7 @@ from mr_mount_controller.laws import find_law, shipped_laws
 from mr_mount_controller.mount import HIGHEST_CURRENT, LOWEST_CURRENT, PUBLISHED
 from mr_mount_controller.node import PARAMETERS as CONTROLLER
 from mr_mount_controller.node_base.plain_text import span
-from mr_mount_controller.node_base.topics import TOPICS
+from mr_mount_controller.node_base.topic_table import TOPICS
 from trackvib_sim.nodes.player import PARAMETERS as PLAYER
 from trackvib_sim.nodes.recorder_parameters import PARAMETERS as RECORDER
 from trackvib_sim.nodes.road_excitation import PARAMETERS as ROAD

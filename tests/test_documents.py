@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import yaml
 from mr_mount_controller.node_base import topics
+from mr_mount_controller.node_base.topic_table import TOPICS
 from trackvib_sim.data import paper_table_file
 from trackvib_sim.studies.paper.paper_table import read_table
 
@@ -43,7 +44,7 @@ def test_every_topic_has_its_row():
     """Each name of a topic is described once."""
     names = [value for key, value in vars(topics).items() if key.isupper() and isinstance(value, str)]
     others = [value for key, value in vars(topics).items() if key.endswith(("_FRAME", "_TYPE"))]
-    assert sorted(set(names) - set(others)) == sorted(topic.name for topic in topics.TOPICS)
+    assert sorted(set(names) - set(others)) == sorted(topic.name for topic in TOPICS)
 
 
 @pytest.mark.slow(reason="a whole run")
@@ -51,7 +52,7 @@ def test_every_topic_has_its_row():
 def test_topics_have_the_types_that_travel(recorded_run):
     """The bag of a run holds every topic of the table, with its type, but more sensors and what the simulator does not
     say."""
-    described = {topic.name.removeprefix("/"): topic.type for topic in topics.TOPICS}
+    described = {topic.name.removeprefix("/"): topic.type for topic in TOPICS}
     for absent in (
         topics.RECORDED,
         topics.RECORDED_ANSWERS,
@@ -60,7 +61,7 @@ def test_topics_have_the_types_that_travel(recorded_run):
         topics.CMD_VEL,
     ):
         del described[absent]
-    if_wanted = [topic.name.removeprefix("/") for topic in topics.TOPICS if "_rate`" in topic.rate]
+    if_wanted = [topic.name.removeprefix("/") for topic in TOPICS if "_rate`" in topic.rate]
     for absent in if_wanted:
         del described[absent]
     metadata = yaml.safe_load((recorded_run / "bag" / "metadata.yaml").read_text())

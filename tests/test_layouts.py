@@ -9,12 +9,13 @@ import pytest
 import yaml
 from ament_index_python.packages import get_package_share_directory
 from mr_mount_controller.node_base import topics
+from mr_mount_controller.node_base.topic_table import TOPICS
 
 from .documents import ROOT
 
 pytestmark = pytest.mark.system
 FOLDER = ROOT / "ros2_ws" / "src" / "trackvib_sim" / "layouts"
-TYPES = {f"/{topic.name.removeprefix('/')}": topic.type for topic in topics.TOPICS}
+TYPES = {f"/{topic.name.removeprefix('/')}": topic.type for topic in TOPICS}
 
 
 def require_field(path):

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 import yaml
 from mr_mount_controller.node_base.qos import LATCHED_QOS
-from mr_mount_controller.node_base.topics import TOPICS
+from mr_mount_controller.node_base.topic_table import TOPICS
 from rcl_interfaces.srv import ListParameters, SetParameters
 from rclpy.node import NodeNameNonExistentError
 from sensor_msgs.msg import Imu

@@ -12,7 +12,7 @@ from launch_ros.actions import Node
 from mr_mount_controller.node_base.parameters import ParameterError
 from mr_mount_controller.node_base.plain_text import plain_line
 from trackvib_sim.nodes.loop_arguments import ARGUMENTS, RECORDER, argument_from_text, loop_parameters
-from trackvib_sim.nodes.node_parameters import full_namespace
+from trackvib_sim.nodes.namespace import full_namespace
 from trackvib_sim.vehicle.vehicle_file import VehicleFileError
 
 PACKAGES = {"controller": "mr_mount_controller"}  # of executables that are not in ours

@@ -13,7 +13,8 @@ from trackvib_sim.rui.state import Loads, TreeState
 from trackvib_sim.rui.sweeps.articulated import CutOffset, new_cuts, open_cuts
 from trackvib_sim.rui.sweeps.cells import columns
 from trackvib_sim.rui.sweeps.kinematics import new_motion, update_motion
-from trackvib_sim.rui.sweeps.riccati import new_response, solve_accelerations
+from trackvib_sim.rui.sweeps.response import new_response
+from trackvib_sim.rui.sweeps.riccati import solve_accelerations
 from trackvib_sim.rui.sweeps.tree import new_rows, to_lanes
 from trackvib_sim.simulation.settings import Rates, RunSettings
 from trackvib_sim.simulation.simulation import HORIZON, Simulation

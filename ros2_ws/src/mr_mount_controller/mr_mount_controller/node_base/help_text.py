@@ -4,7 +4,7 @@ import sys
 from inspect import getdoc
 from textwrap import fill
 
-from .topics import TOPICS
+from .topic_table import TOPICS
 
 _WIDTH = 100
 _WORDS = ("-h", "--help")

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from trackvib_sim.analysis.numbers import Gap
 from trackvib_sim.analysis.segments import common_segments
+from trackvib_sim.analysis.stamp_numbers import Gap
 from trackvib_sim.analysis.stamps import timing
 
 MS = 1_000_000  # ns

@@ -6,7 +6,8 @@ import yaml
 from mr_mount_controller.node_base.parameter_files import given_by_wildcard
 from mr_mount_controller.node_base.parameters import ParameterError
 from trackvib_sim.nodes.loop_arguments import CONTROLLER, NODES, SIMULATOR, loop_parameters
-from trackvib_sim.nodes.node_parameters import NodeParameters, full_namespace
+from trackvib_sim.nodes.namespace import full_namespace
+from trackvib_sim.nodes.node_parameters import NodeParameters
 
 FIRST = """
 /lab/simulator: {ros__parameters: {speed: 1.0, gears: true}}

@@ -36,11 +36,3 @@ def symmetric(matrix):
 def test_products_are_those_of_numpy(made, expected):
     """Up to rounding."""
     np.testing.assert_allclose(made, expected, rtol=1e-12, atol=1e-12)
-
-
-def test_angle_of_a_vector_is_that_of_the_library():
-    """In all directions and on the axes, to the last digit but one."""
-    angle = np.concatenate((RNG.uniform(-np.pi, np.pi, 2000), 0.125 * np.pi * np.arange(-8, 9)))
-    x, y = (RNG.uniform(0.01, 100.0, angle.size) * part for part in (np.cos(angle), np.sin(angle)))
-    got = np.array([spatial.vector_angle(*each) for each in zip(x, y, strict=True)])
-    np.testing.assert_array_max_ulp(got, np.arctan2(y, x), maxulp=3)

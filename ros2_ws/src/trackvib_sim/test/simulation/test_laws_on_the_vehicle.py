@@ -11,7 +11,8 @@ from mr_mount_controller.mount import PUBLISHED
 from mr_mount_controller.mounting import PAIR
 from trackvib_sim.data import find_vehicle
 from trackvib_sim.road.iso8608 import Iso8608Road
-from trackvib_sim.rui.linear.modes import describe, modes
+from trackvib_sim.rui.linear.mode import describe
+from trackvib_sim.rui.linear.modes import modes
 from trackvib_sim.simulation.closed_loop import run_closed_loop
 from trackvib_sim.vehicle.linear_vehicle import build_linear_vehicle
 from trackvib_sim.vehicle.mount_law import mount_characteristics

@@ -5,7 +5,7 @@ import pytest
 from trackvib_sim.rui.linear.equilibrium import check_equilibrium
 from trackvib_sim.rui.linear.modes import modes
 from trackvib_sim.rui.sweeps.cells import columns
-from trackvib_sim.rui.sweeps.riccati import ResponseOffset
+from trackvib_sim.rui.sweeps.response import ResponseOffset
 from trackvib_sim.rui.sweeps.tree import new_rows, rest_lanes
 from trackvib_sim.vehicle.equilibrium import static_equilibrium
 from trackvib_sim.vehicle.hinge_springs import add_hinge_springs

@@ -16,7 +16,8 @@ SPEED_BAND = 2.0  # m/s, likewise
 STEADY = 0.05  # of its frequency, by which a line may move and still be one
 
 
-def _number(unit):
+def number(unit):
+    """Return the field of a number with its unit."""
     return field(metadata={"unit": unit})
 
 
@@ -24,23 +25,23 @@ def _number(unit):
 class AxisNumbers:
     """One sensor along one axis over the measured time."""
 
-    mean: float = _number("m/s²")  # of the specific force as recorded; +g on z at rest
-    rms_raw: float = _number("m/s²")  # about that mean
-    rms: float = _number("m/s²")  # band-limited
-    peak: float = _number("m/s²")  # greatest absolute value, band-limited
-    rms_weighted: float = _number("m/s²")  # ISO 2631-1, Wd along x and y, Wk along z
-    crest_factor: float = _number("-")  # greatest absolute weighted value over rms_weighted
-    mtvv: float = _number("m/s²")  # greatest running RMS of the weighted values over 1 s
-    vdv: float = _number("m/s^1.75")  # fourth-power vibration dose value of the weighted ones
+    mean: float = number("m/s²")  # of the specific force as recorded; +g on z at rest
+    rms_raw: float = number("m/s²")  # about that mean
+    rms: float = number("m/s²")  # band-limited
+    peak: float = number("m/s²")  # greatest absolute value, band-limited
+    rms_weighted: float = number("m/s²")  # ISO 2631-1, Wd along x and y, Wk along z
+    crest_factor: float = number("-")  # greatest absolute weighted value over rms_weighted
+    mtvv: float = number("m/s²")  # greatest running RMS of the weighted values over 1 s
+    vdv: float = number("m/s^1.75")  # fourth-power vibration dose value of the weighted ones
 
 
 @dataclass(frozen=True)
 class MotionSickness:
     """What the slow vertical motion of one sensor does to people, ISO 2631-1 with Wf."""
 
-    rms: float = _number("m/s²")  # weighted
-    msdv: float = _number("m/s^1.5")  # motion sickness dose value: root of the integral of the square over the time
-    measured: float = _number("s")  # time that counts
+    rms: float = number("m/s²")  # weighted
+    msdv: float = number("m/s^1.5")  # motion sickness dose value: root of the integral of the square over the time
+    measured: float = number("s")  # time that counts
 
 
 @dataclass(frozen=True)
@@ -48,12 +49,12 @@ class Line:
     """A line of the spectrum with a known cause, and what lies in a band around it."""
 
     name: str  # "link passing 1", "engine order 2"
-    frequency: float = _number("Hz")  # at the mean speed
-    lowest: float = _number("Hz")  # over the speeds driven
-    highest: float = _number("Hz")
-    low: float = _number("Hz")  # of the band
-    high: float = _number("Hz")
-    rms: dict = _number("m/s²")  # sensor -> axis -> RMS in the band
+    frequency: float = number("Hz")  # at the mean speed
+    lowest: float = number("Hz")  # over the speeds driven
+    highest: float = number("Hz")
+    low: float = number("Hz")  # of the band
+    high: float = number("Hz")
+    rms: dict = number("m/s²")  # sensor -> axis -> RMS in the band
 
     @property
     def sweeps(self):
@@ -72,48 +73,48 @@ class Part:
 
     low: float
     high: float
-    measured: float = _number("s")  # time that counts
-    speed: float = _number("m/s")  # mean
-    engine_speed: float = _number("r/min")  # mean; nan if it was not recorded
-    rms: dict = _number("m/s²")  # sensor -> axis -> band-limited RMS
-    rms_weighted: dict = _number("m/s²")  # sensor -> axis, ISO 2631-1
-    absorbed_power: dict = _number("W")  # sensor -> of the vertical
+    measured: float = number("s")  # time that counts
+    speed: float = number("m/s")  # mean
+    engine_speed: float = number("r/min")  # mean; nan if it was not recorded
+    rms: dict = number("m/s²")  # sensor -> axis -> band-limited RMS
+    rms_weighted: dict = number("m/s²")  # sensor -> axis, ISO 2631-1
+    absorbed_power: dict = number("W")  # sensor -> of the vertical
 
 
 @dataclass(frozen=True)
 class WayInterval(Part):
     """The time in which the hull was in an interval of its way."""
 
-    low: float = _number("m")  # distance where it begins
-    high: float = _number("m")
+    low: float = number("m")  # distance where it begins
+    high: float = number("m")
 
 
 @dataclass(frozen=True)
 class SpeedBand(Part):
     """The time in which the hull's speed, averaged over 1 s, was in a band."""
 
-    low: float = _number("m/s")
-    high: float = _number("m/s")
+    low: float = number("m/s")
+    high: float = number("m/s")
 
 
 @dataclass(frozen=True)
 class OrderLevel:
     """One order of the engine while it turned at one speed."""
 
-    engine_speed: float = _number("r/min")  # middle of a band
-    order: float = _number("1/revolution")
-    windows: int = _number("-")  # of revolutions, over which this is the mean
-    rms: dict = _number("m/s²")  # sensor -> axis -> RMS in a band about the order
+    engine_speed: float = number("r/min")  # middle of a band
+    order: float = number("1/revolution")
+    windows: int = number("-")  # of revolutions, over which this is the mean
+    rms: dict = number("m/s²")  # sensor -> axis -> RMS in a band about the order
 
 
 @dataclass(frozen=True)
 class OrderSpectra:
     """Spectra over the engine's revolutions instead of time, in bands of its speed; nan where it never turned so."""
 
-    engine_speed: np.ndarray = _number("r/min")  # (n,) middles
-    order: np.ndarray = _number("1/revolution")  # (f,)
-    windows: np.ndarray = _number("-")  # (n,) how many the means are of
-    psd: dict = _number("(m/s²)²/order")  # sensor -> (n, f, 3), one-sided
+    engine_speed: np.ndarray = number("r/min")  # (n,) middles
+    order: np.ndarray = number("1/revolution")  # (f,)
+    windows: np.ndarray = number("-")  # (n,) how many the means are of
+    psd: dict = number("(m/s²)²/order")  # sensor -> (n, f, 3), one-sided
 
 
 @dataclass(frozen=True)
@@ -123,8 +124,8 @@ class Campbell:
     over: str  # "engine speed" or "speed", of the hull
     unit: str  # of it
     value: np.ndarray  # (n,) middles of its bands
-    frequency: np.ndarray = _number("Hz")  # (f,)
-    psd: dict = _number("(m/s²)²/Hz")  # sensor -> (n, f), one-sided
+    frequency: np.ndarray = number("Hz")  # (f,)
+    psd: dict = number("(m/s²)²/Hz")  # sensor -> (n, f), one-sided
     rays: tuple  # of `Ray`s
 
 
@@ -140,23 +141,23 @@ class Ray:
 class Current:
     """Current of one coil over the measured time."""
 
-    mean: float = _number("A")
-    rms: float = _number("A")
-    least: float = _number("A")
-    greatest: float = _number("A")
-    slew: float = _number("A/s")  # greatest absolute change from sample to sample, over their distance in time
+    mean: float = number("A")
+    rms: float = number("A")
+    least: float = number("A")
+    greatest: float = number("A")
+    slew: float = number("A/s")  # greatest absolute change from sample to sample, over their distance in time
 
 
 @dataclass(frozen=True)
 class MountAxis:
     """One mount along one axis of the hull; travel is deflection less its mean, upper end against lower."""
 
-    deflection_mean: float = _number("m")  # from the unloaded place
-    travel_rms: float = _number("m")
-    travel_peak: float = _number("m")  # greatest distance from the mean
-    force_mean: float = _number("N")  # on the powertrain
-    force_rms: float = _number("N")  # about the mean
-    force_peak: float = _number("N")  # greatest distance from the mean
+    deflection_mean: float = number("m")  # from the unloaded place
+    travel_rms: float = number("m")
+    travel_peak: float = number("m")  # greatest distance from the mean
+    force_mean: float = number("N")  # on the powertrain
+    force_rms: float = number("N")  # about the mean
+    force_peak: float = number("N")  # greatest distance from the mean
 
 
 @dataclass(frozen=True)
@@ -165,78 +166,32 @@ class MountNumbers:
 
     axes: dict  # axis -> MountAxis
     current: Current  # in the coil
-    energy_dissipated: float = _number("J")  # by its damping
-    power_dissipated: float = _number("W")  # mean
-
-
-@dataclass(frozen=True)
-class Gap:
-    """A place where stamps of a topic jump ahead."""
-
-    begin: float = _number("s")  # last sample before it, from the start of the bag
-    length: float = _number("s")  # to the next sample
-    missing: int = _number("-")  # samples that should lie within
-
-
-@dataclass(frozen=True)
-class Timing:
-    """What the stamps of a topic say, over the whole bag; those of answers are of the samples that they answer."""
-
-    samples: int = _number("-")
-    period: float = _number("s")  # median step of the stamps
-    first: float = _number("s")  # from the start of the bag
-    last: float = _number("s")
-    missing: int = _number("-")  # in all gaps
-    repeated: int = _number("-")  # samples within half a period of the one before
-    backward: int = _number("-")  # samples older than the one before
-    gap_count: int = _number("-")
-    gaps: tuple  # the `Gap`s, up to `MOST_GAPS`
-
-    @property
-    def sound(self):
-        """Whether each sample follows the one before by one period."""
-        return not (self.gap_count or self.repeated or self.backward)
-
-
-@dataclass(frozen=True)
-class Clock:
-    """What a sensor's stamps were like before they were put on the robust line through them."""
-
-    rate: float = _number("Hz")  # slope of the line
-    jitter: float = _number("s")  # RMS of the stamps about it
-    correction: float = _number("s")  # the largest
-    lost: int = _number("-")  # samples that are missing between others
-    repeated: int = _number("-")  # stamps that are those of the sample before
-    disordered: int = _number("-")  # samples that were put in the order of their stamps
-    copies: int = _number("-")  # messages that are in the bag twice, left out
-    left_out: int = _number("-")  # samples that stand apart, or next to lost ones
-    settings: tuple  # by how much the clock was set [s], and whether the recorder's clock bears it out
-    counted_by_log: bool  # whether samples were counted by the times at which they were recorded
-    steps: str  # which steps the stamps make
+    energy_dissipated: float = number("J")  # by its damping
+    power_dissipated: float = number("W")  # mean
 
 
 @dataclass(frozen=True)
 class Spectra:
     """Means over the measured time by Welch's method: windows of 1 s, Hann, half overlapping."""
 
-    frequency: np.ndarray = _number("Hz")  # (f,)
-    psd: dict = _number("(m/s²)²/Hz")  # sensor -> (f, 3), one-sided
-    coherence: np.ndarray = _number("-")  # (f, 3) of chassis and powertrain, axis by axis
-    transmissibility: np.ndarray = _number("-")  # (f, 3) from chassis to powertrain, |H1|
+    frequency: np.ndarray = number("Hz")  # (f,)
+    psd: dict = number("(m/s²)²/Hz")  # sensor -> (f, 3), one-sided
+    coherence: np.ndarray = number("-")  # (f, 3) of chassis and powertrain, axis by axis
+    transmissibility: np.ndarray = number("-")  # (f, 3) from chassis to powertrain, |H1|
 
 
 @dataclass(frozen=True)
 class History:
     """Levels along the whole bag, settling included, in bins of equal length; nan where there is nothing."""
 
-    time: np.ndarray = _number("s")  # (n,) middle of each bin, from the start of the bag
-    rms: dict = _number("m/s²")  # sensor -> (n, 3) band-limited
-    rms_weighted: dict = _number("m/s²")  # sensor -> (n, 3)
-    absorbed_power: dict = _number("W")  # sensor -> (n,) mean, of the vertical
-    speed: np.ndarray = _number("m/s")  # (n,) mean
-    current: np.ndarray = _number("A")  # (n, coils) mean in the coils
-    power_dissipated: np.ndarray = _number("W")  # (n, mounts) mean
-    travel: np.ndarray = _number("m")  # (n, mounts) RMS of the vertical travel about its mean over the bin
+    time: np.ndarray = number("s")  # (n,) middle of each bin, from the start of the bag
+    rms: dict = number("m/s²")  # sensor -> (n, 3) band-limited
+    rms_weighted: dict = number("m/s²")  # sensor -> (n, 3)
+    absorbed_power: dict = number("W")  # sensor -> (n,) mean, of the vertical
+    speed: np.ndarray = number("m/s")  # (n,) mean
+    current: np.ndarray = number("A")  # (n, coils) mean in the coils
+    power_dissipated: np.ndarray = number("W")  # (n, mounts) mean
+    travel: np.ndarray = number("m")  # (n, mounts) RMS of the vertical travel about its mean over the bin
     mounts: tuple  # names, of the coils the first ones
 
 
@@ -255,25 +210,25 @@ class Analysis:
     """
 
     bag: str  # path as it was given
-    begin: int = _number("ns")  # stamp of the start
-    duration: float = _number("s")  # from the start to the last sample of both sensors
-    settle: float = _number("s")  # of the start that does not count
-    measured: float = _number("s")  # time that counts
-    rate: float = _number("Hz")  # of both sensors, the slower one's where they differ
-    rates: dict = _number("Hz")  # sensor -> its own rate
+    begin: int = number("ns")  # stamp of the start
+    duration: float = number("s")  # from the start to the last sample of both sensors
+    settle: float = number("s")  # of the start that does not count
+    measured: float = number("s")  # time that counts
+    rate: float = number("Hz")  # of both sensors, the slower one's where they differ
+    rates: dict = number("Hz")  # sensor -> its own rate
     origins: dict  # sensor -> where its samples come from and what was done to them, in words
-    band: tuple = _number("Hz")  # low and high end of "band-limited"
-    speed: float = _number("m/s")  # mean forward speed of the hull
-    speed_deviation: float = _number("m/s")  # its standard deviation
-    engine_speed: float = _number("r/min")  # mean as recorded, else as the simulator was told
-    engine_speed_deviation: float = _number("r/min")  # its standard deviation, 0 where it was only told
-    speed_range: tuple = _number("m/s")  # least and greatest speed, averaged over 1 s
-    engine_speed_range: tuple = _number("r/min")  # least and greatest engine speed
-    drive_force: float = _number("N")  # work of the drive a metre: the running resistance where speed is steady
-    drive_power: float = _number("W")  # work of the drive a second; both from the start, as the simulator told them
+    band: tuple = number("Hz")  # low and high end of "band-limited"
+    speed: float = number("m/s")  # mean forward speed of the hull
+    speed_deviation: float = number("m/s")  # its standard deviation
+    engine_speed: float = number("r/min")  # mean as recorded, else as the simulator was told
+    engine_speed_deviation: float = number("r/min")  # its standard deviation, 0 where it was only told
+    speed_range: tuple = number("m/s")  # least and greatest speed, averaged over 1 s
+    engine_speed_range: tuple = number("r/min")  # least and greatest engine speed
+    drive_force: float = number("N")  # work of the drive a metre: the running resistance where speed is steady
+    drive_power: float = number("W")  # work of the drive a second; both from the start, as the simulator told them
     sensors: dict  # sensor -> axis -> AxisNumbers
-    total_weighted: dict = _number("m/s²")  # sensor -> root of the sum of the three rms_weighted squared
-    absorbed_power: dict = _number("W")  # sensor -> mean, of the vertical
+    total_weighted: dict = number("m/s²")  # sensor -> root of the sum of the three rms_weighted squared
+    absorbed_power: dict = number("W")  # sensor -> mean, of the vertical
     motion_sickness: dict  # sensor -> MotionSickness; those left out that were measured too short
     lines: tuple  # `Line`s, link passing first
     by_way: tuple  # `WayInterval`s in which anything was measured; empty if the bag does not tell the way
@@ -283,7 +238,7 @@ class Analysis:
     campbell: tuple  # `Campbell`s over the speeds that vary
     mounts: dict  # mount -> MountNumbers; empty without mount states
     demand: dict  # coil, called as its mount -> Current that the controller asked for; empty without answers
-    mount_energy: dict | None = _number("J")  # the simulator's own account of the whole run, if it told one
+    mount_energy: dict | None = number("J")  # the simulator's own account of the whole run, if it told one
     loop: dict  # what was lost (None where the bag cannot tell), and what the simulator told last
     messages: dict  # topic -> count
     timing: dict  # end of topic -> Timing

@@ -8,8 +8,9 @@ from mr_mount_controller.node_base import topics
 
 from ..bags.provenance import parameters_with
 from ..numerics.units import NANO
-from .numbers import SENSORS, Timing
+from .numbers import SENSORS
 from .settling import SHORTEST_MEASURING, SHORTEST_SETTLING, VEHICLE_BEHIND, settling_time
+from .stamp_numbers import Timing
 from .stamps import start_of, timing
 
 SLOWEST = 10.0  # Hz, of a further sensor: half of it is a band in which levels mean something

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..numerics.units import NANO
-from .numbers import Gap, Timing
+from .stamp_numbers import Gap, Timing
 
 MOST_GAPS = 1000  # that are listed
 TOLERANCE = 0.5  # of a period, by which a step may differ from it

@@ -125,7 +125,7 @@ class Recording(NamedTuple):
     transforms: dict = MappingProxyType({})  # frame -> frame above it and quaternion in it, as /tf_static tells
     own: dict = MappingProxyType({})  # sensor -> `Inertial` at its own rate, where it was resampled to the other one's
     law_changes: tuple = ()  # of the law's parameters: last stamp [ns] before it, and new values by name
-    clocks: dict | None = None  # end of topic -> `analysis.numbers.Clock`, once sensors are on one time base
+    clocks: dict | None = None  # end of topic -> `analysis.stamp_numbers.Clock`, once sensors are on one time base
 
     @property
     def streams(self):

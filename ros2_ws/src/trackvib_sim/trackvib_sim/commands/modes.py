@@ -8,7 +8,8 @@ from rich.table import Table
 from ..console import Terminal
 from ..data import find_vehicle
 from ..drawings.mode_pictures import mode_pictures
-from ..rui.linear.modes import describe, modes
+from ..rui.linear.mode import describe
+from ..rui.linear.modes import modes
 from ..vehicle.body_tree import running_gear_kind
 from ..vehicle.coil import usable_current
 from ..vehicle.linear_vehicle import build_linear_vehicle

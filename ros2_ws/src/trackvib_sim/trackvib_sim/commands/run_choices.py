@@ -10,7 +10,6 @@ from mr_mount_controller.node_base.parameters import ParameterError
 
 from ..analysis.settling import SHORTEST_MEASURING, SHORTEST_SETTLING, VEHICLE_BEHIND, settling_time
 from ..nodes.loop_arguments import CONTROLLER, ROAD, SIMULATOR, loop_parameters
-from ..nodes.node_parameters import full_namespace
 from ..nodes.simulator_parameters import PARAMETERS, physics_rate
 from ..road.classes import CLASSES
 from ..road_sources.road_file import RoadError, find_road, road_in_words
@@ -62,6 +61,7 @@ def choose(given, files, namespace, one_process, view):
     files : iterable of path
         Parameter files, which count where no option is given.
     namespace : str
+        Its full name.
     one_process, view : bool
 
     Raises
@@ -70,7 +70,7 @@ def choose(given, files, namespace, one_process, view):
         An option or file cannot be used, or the duration is too short.
     """
     try:
-        parameters, vehicle = loop_parameters(given, files, full_namespace(namespace))
+        parameters, vehicle = loop_parameters(given, files, namespace)
         own = {each.name: each.check(parameters.get(SIMULATOR, each.name, each.default)) for each in PARAMETERS}
         name = given.get("road") or str(parameters.get(ROAD, "road"))
         road = find_road(name, 2.0 * vehicle.road_wheels.y)

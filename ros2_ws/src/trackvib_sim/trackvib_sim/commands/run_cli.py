@@ -44,20 +44,24 @@ def run(out, files, namespace, one_process, view, **options):
     """Run the closed loop as four ROS 2 nodes; writes a bag, a summary and a picture."""
     if sys.stderr.isatty():
         click.echo("loading the simulation ...", err=True)
-    from .own_domain import Lookout
+    from mr_mount_controller.node_base.parameters import ParameterError
 
-    lookout = Lookout(namespace)
+    from ..nodes.namespace import full_namespace
+    from .own_domain import Lookout
     from .result_folder import CommandError
-    from .run import run_loop  # imported late: neither --help nor the line above nor the lookout need wait for it
 
     given = {name: value for name, value in {**options, "view": view or None}.items() if value is not None}
-    choosing = {"given": given, "files": files, "namespace": namespace, "one_process": one_process, "view": view}
     try:
+        choosing = {"given": given, "files": files, "namespace": full_namespace(namespace), "one_process": one_process}
+        choosing["view"] = view
+        lookout = Lookout(choosing["namespace"])
         if view:
-            from .live_view import run_with_view
+            from .live_view import run_with_view  # imported late, as below
 
             run_with_view(choosing, out, lookout)
         else:
+            from .run import run_loop  # imported late: neither --help nor the line above nor the lookout need wait
+
             run_loop(choosing, out, lookout)
-    except CommandError as error:
+    except (CommandError, ParameterError) as error:
         fail(error)

@@ -36,13 +36,14 @@ class ForkedNode:
         if "rclpy" in sys.modules:
             raise RuntimeError(f"node {name!r} must be forked before ROS 2 is loaded")
         here, there = _FORK.Pipe()
-        self._arguments = here
+        self._arguments, self._begun = here, False
         self._process = _FORK.Process(target=_wait_and_run, args=(name, there), daemon=True)
         self._process.start()
         there.close()
 
     def begin(self, words, log):
         """Let it run with arguments; what it prints goes to a file."""
+        self._begun = True
         self._arguments.send((words, log))
 
     @property
@@ -52,8 +53,13 @@ class ForkedNode:
 
     def interrupt(self):
         """Ask it to end in order."""
-        if self._process.is_alive():
+        if not self._process.is_alive():
+            return
+        if self._begun:
             os.kill(self._process.pid, signal.SIGINT)
+            return
+        with suppress(OSError):  # it has just ended
+            self._arguments.send(None)  # a signal may find the handlers of this process in it yet
 
     def end(self, grace):
         """Wait for its end; after so many seconds end it."""
@@ -67,7 +73,10 @@ def _wait_and_run(name, arguments):
     begin_program(name)
     with suppress(ImportError):  # told below, where there is a log
         importlib.import_module(MODULES[name])  # while the arguments are on their way
-    words, log = arguments.recv()
+    told = arguments.recv()
+    if told is None:
+        return
+    words, log = told
     run_program(lambda: importlib.import_module(MODULES[name]).main(), [name, *words], log)
 
 

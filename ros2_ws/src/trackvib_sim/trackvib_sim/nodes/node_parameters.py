@@ -4,8 +4,6 @@ ROS itself reads several files and options in an order of its own: there a value
 than a later one for a node by its name. Here what comes later counts.
 """
 
-import re
-
 import yaml
 from mr_mount_controller.node_base.parameter_files import is_for, is_wildcard, of_no_node, sections
 from mr_mount_controller.node_base.parameters import ParameterError
@@ -14,25 +12,6 @@ from ..yaml_text import YamlTextError, load, read_text
 
 _WHAT = "parameter file"
 _SCALARS = (bool, int, float, str)
-_TOKEN = "[A-Za-z_][A-Za-z0-9_]*"
-_NAMESPACE = re.compile(f"/?({_TOKEN}(/{_TOKEN})*)?")
-_LONGEST = 100  # characters; topics and services in it have names of 255 at most
-
-
-def full_namespace(name):
-    """Return a namespace with a slash in front; "/" for none.
-
-    Raises
-    ------
-    ParameterError
-        ROS 2 takes no such name.
-    """
-    if not _NAMESPACE.fullmatch(name) or len(name) > _LONGEST:
-        raise ParameterError(
-            f"namespace is {name!r}, accepted: at most {_LONGEST} letters, digits and _, in parts "
-            "separated by slashes that do not begin with a digit"
-        )
-    return f"/{name.lstrip('/')}"
 
 
 class NodeParameters:

@@ -80,7 +80,7 @@ class SimulatorNode(LoopNode):
     def run(self):
         """Wait for the partners, then run period after period until the duration is over or a stop is asked for."""
         schedule(self.settings)
-        gathering = Gathering(self._present, self._ready)
+        gathering = Gathering(lambda: (self._answers.count(), sum(self._output.listeners())), self._ready)
         self._second_clock.listen(gathering.look)
         self._output.introduce()
         self._wait_for_partners(gathering)
@@ -177,9 +177,6 @@ class SimulatorNode(LoopNode):
         self._stand_until(lambda: gathering.complete() or self._second_clock.ahead, self._deaf.tell)
         if not self.stopping():
             self.get_logger().info("all partners are present, running")
-
-    def _present(self):
-        return self._answers.count(), sum(self._output.listeners())
 
     def _ready(self):
         recorder = self._recorder is None or self._recorder.reached

@@ -23,6 +23,6 @@ from .linear.frequency_response import At as At
 from .linear.frequency_response import frequency_response as frequency_response
 from .linear.model import GroundSpring as GroundSpring
 from .linear.model import LinearModel as LinearModel
-from .linear.modes import Mode as Mode
+from .linear.mode import Mode as Mode
 from .linear.modes import modes as modes
 from .linear.modes import natural_frequencies as natural_frequencies

@@ -26,7 +26,8 @@ from .state import Accelerations, Loads, TreeState
 from .sweeps.articulated import apply_force, new_cuts, open_cuts
 from .sweeps.cells import columns
 from .sweeps.kinematics import MotionOffset, new_motion, update_motion
-from .sweeps.riccati import ResponseOffset, new_response, solve_accelerations
+from .sweeps.response import ResponseOffset, new_response
+from .sweeps.riccati import solve_accelerations
 from .sweeps.tree import build_tree, new_rows, to_lanes
 from .table import Body
 

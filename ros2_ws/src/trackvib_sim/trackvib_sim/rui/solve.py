@@ -11,7 +11,8 @@ from .sweeps.articulated import apply_wrench, new_cuts, open_cuts, prescribe
 from .sweeps.cells import columns
 from .sweeps.elastic import apply_elastic_hinges, elastic_place, elastic_wrench
 from .sweeps.kinematics import MotionOffset, motion_vector, new_motion, update_motion
-from .sweeps.riccati import ResponseOffset, hinge_wrench, new_response, solve_accelerations
+from .sweeps.response import ResponseOffset, hinge_wrench, new_response
+from .sweeps.riccati import solve_accelerations
 from .sweeps.tree import BodyOffset, build_tree, new_rows, to_lanes
 from .table import Body
 

@@ -11,7 +11,7 @@ import numpy as np
 from ..numerics.compiled import inlined, kernel
 from ..numerics.spatial import load3, rotate_back
 from ..rui.sweeps.kinematics import MotionOffset, body_axes, motion_vector, point_place
-from ..rui.sweeps.riccati import point_specific_force
+from ..rui.sweeps.response import point_specific_force
 
 ORDER = 8  # of the low-pass
 BY_DEFAULT = 0.4  # bandwidth over a sensor's own sampling rate: 16 dB are gone at half of it, 28 at 0.6

@@ -10,7 +10,8 @@ from ..rui.sweeps.articulated import open_cuts
 from ..rui.sweeps.cells import columns
 from ..rui.sweeps.elastic import apply_elastic_hinges
 from ..rui.sweeps.kinematics import MotionOffset, update_motion
-from ..rui.sweeps.riccati import ResponseOffset, solve_accelerations
+from ..rui.sweeps.response import ResponseOffset
+from ..rui.sweeps.riccati import solve_accelerations
 from .coil import settle_coils
 from .hinge_springs import add_hinge_springs
 from .mount_law import lay_fields

@@ -9,7 +9,7 @@ from ..rui.state import TreeState
 from ..rui.sweeps.articulated import Cuts, new_cuts
 from ..rui.sweeps.elastic import elastic_place
 from ..rui.sweeps.kinematics import Motion, new_motion, update_motion
-from ..rui.sweeps.riccati import Response, new_response
+from ..rui.sweeps.response import Response, new_response
 from ..rui.sweeps.tree import Tree, build_tree, new_rows, rest_lanes
 from .body_tree import GRAVITY, build_body_table, sprung_bodies
 from .coil import Coil, CoilState, build_coil, new_coil_state

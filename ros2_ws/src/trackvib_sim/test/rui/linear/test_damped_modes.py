@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from trackvib_sim.rui.linear.mode import describe
 from trackvib_sim.rui.linear.model import GroundSpring, LinearModel
-from trackvib_sim.rui.linear.modes import describe, modes, natural_frequencies
+from trackvib_sim.rui.linear.modes import modes, natural_frequencies
 from trackvib_sim.rui.state import rest_state
 from trackvib_sim.rui.table import Body, Hinge
 

@@ -9,7 +9,7 @@ from trackvib_sim.rui.reference.placement import place_bodies
 from trackvib_sim.rui.state import TreeState
 from trackvib_sim.rui.sweeps.cells import columns
 from trackvib_sim.rui.sweeps.integrator import integrate
-from trackvib_sim.rui.sweeps.riccati import ResponseOffset
+from trackvib_sim.rui.sweeps.response import ResponseOffset
 from trackvib_sim.rui.sweeps.tree import build_tree, new_rows, to_lanes, to_table
 
 G = np.array([0.0, 0.0, -9.81])

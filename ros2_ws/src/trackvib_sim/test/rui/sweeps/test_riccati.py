@@ -10,7 +10,7 @@ from trackvib_sim.rui.solve import accelerations
 from trackvib_sim.rui.state import TreeState, no_loads, rest_state
 from trackvib_sim.rui.sweeps.articulated import CutOffset, apply_wrench
 from trackvib_sim.rui.sweeps.cells import columns
-from trackvib_sim.rui.sweeps.riccati import hinge_wrench, point_specific_force
+from trackvib_sim.rui.sweeps.response import hinge_wrench, point_specific_force
 from trackvib_sim.rui.sweeps.tree import build_tree, to_lanes
 from trackvib_sim.rui.table import Body, Hinge
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...numerics.units import NANO
-from ..numbers import Clock
+from ..stamp_numbers import Clock
 from ..stamps import BLOCK, blocks, period_of
 from .counting import count_samples
 from .line import line_through

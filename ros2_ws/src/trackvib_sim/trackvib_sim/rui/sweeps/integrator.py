@@ -2,7 +2,7 @@
 
 from ...numerics.compiled import inlined
 from ...numerics.spatial import turn_quaternion, vector
-from .riccati import ResponseOffset
+from .response import ResponseOffset
 
 
 @inlined

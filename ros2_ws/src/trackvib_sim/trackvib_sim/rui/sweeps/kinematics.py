@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...numerics.angles import sine_cosine
 from ...numerics.compiled import inlined
 from ...numerics.spatial import (
     add,
@@ -15,7 +16,6 @@ from ...numerics.spatial import (
     rotate,
     rotate_back,
     scale,
-    sine_cosine,
     subtract,
     vector,
 )

@@ -7,7 +7,8 @@ from rich.table import Table
 from ...console import Terminal
 from ...data import find_vehicle
 from ...new_files import new_file
-from ...rui.linear.modes import describe, modes
+from ...rui.linear.mode import describe
+from ...rui.linear.modes import modes
 from ...vehicle.linear_vehicle import build_linear_vehicle
 from ...vehicle.system import Operation, build_system
 from ...vehicle.vehicle_file import read_vehicle

@@ -15,7 +15,8 @@ from ...rui.state import Loads
 from ...rui.sweeps.articulated import CutOffset, new_cuts, open_cuts
 from ...rui.sweeps.cells import columns
 from ...rui.sweeps.kinematics import MotionOffset
-from ...rui.sweeps.riccati import ResponseOffset, solve_accelerations
+from ...rui.sweeps.response import ResponseOffset
+from ...rui.sweeps.riccati import solve_accelerations
 from ...rui.sweeps.tree import new_rows, to_table
 from ...simulation.simulation import Simulation
 from ...simulation.step import Status, add_forces, end_step, observe

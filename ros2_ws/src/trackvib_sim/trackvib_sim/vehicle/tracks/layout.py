@@ -4,6 +4,7 @@ Places are those in the hull, x and z, at static ride height. A tensioner's trav
 """
 
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
@@ -14,6 +15,7 @@ from ..body_tree import GRAVITY, SIDE_NAMES, SIDES, build_body_table, drive_end
 from .sprockets import pitch_radius
 
 _CORNERS = 2000  # of the polygons that stand for circles; they are 1e-6 of the radius too small
+_KEPT = 64  # lines that are kept: an idler's place is sought on both sides, and again in every run of a vehicle
 _REFINEMENTS = 6  # of a pin's place on the line; each gains two digits where the line bends most
 
 
@@ -48,8 +50,14 @@ def room_for_links(vehicle, side):
 
 def _excess(vehicle, side, travel):
     """How much longer a side's links, all at pretension, are than the taut line [m]."""
-    line = _taut_line(vehicle, side, travel)
-    return _walk(vehicle, side, line, 0.0)[-1] - line.arc[-1]
+    t = vehicle.tracks
+    return _excess_round(_running_gear(vehicle, side, travel), int(t.links[side]), t.pitch)
+
+
+@lru_cache(maxsize=_KEPT)
+def _excess_round(gear, links, pitch):
+    line = _line_round(gear)
+    return _walk(line, links, pitch, 0.0)[-1] - line.arc[-1]
 
 
 def idler_load(vehicle, side, travel):
@@ -98,7 +106,8 @@ def assemble_track(vehicle, side, travel, phase):
     The first pin lies `phase` pitches ahead of the rearmost road wheel's lowest point.
     """
     line = _taut_line(vehicle, side, travel)
-    arc = _walk(vehicle, side, line, phase * vehicle.tracks.pitch)
+    t = vehicle.tracks
+    arc = _walk(line, int(t.links[side]), t.pitch, phase * t.pitch)
     # what little the chords on the arcs do not close is spread over all links
     arc = arc[:-1] - (arc[-1] - arc[0] - line.arc[-1]) * np.arange(len(arc) - 1) / (len(arc) - 1)
     place = line.at(arc)
@@ -131,7 +140,15 @@ class _Line:
         return np.stack([np.interp(arc, self.arc, self.corner[:, k]) for k in range(2)], axis=-1)
 
 
-def _taut_line(vehicle, side, travel):
+class _RunningGear(NamedTuple):
+    """What one track is laid round: circles (x, z, radius)."""
+
+    in_place: tuple
+    idler: tuple
+    first: tuple  # place near which the line begins
+
+
+def _running_gear(vehicle, side, travel):
     v, wheels, given = vehicle, vehicle.road_wheels, sink(vehicle)
     if not given < wheels.radius:
         raise TrackDoesNotFit(
@@ -145,15 +162,23 @@ def _taut_line(vehicle, side, travel):
         *((x, z, rollers.radius) for x, z in (zip(rollers.x, rollers.z, strict=True) if rollers else ())),
         (v.sprockets.x, v.sprockets.z, pitch_radius(v)),
     )
-    idler = _corners(v.idlers.x + travel, v.idlers.z, _idler_circle(v))
-    corner = _outline(np.concatenate((_outline_of(in_place), idler)))
-    lowest_rear = np.argmin(np.hypot(*(corner - (min(wheel_x), given)).T))
+    return _RunningGear(in_place, (v.idlers.x + travel, v.idlers.z, _idler_circle(v)), (min(wheel_x), given))
+
+
+def _taut_line(vehicle, side, travel):
+    return _line_round(_running_gear(vehicle, side, travel))
+
+
+@lru_cache(maxsize=_KEPT)
+def _line_round(gear):
+    corner = _outline(np.concatenate((_outline_of(gear.in_place), _corners(*gear.idler))))
+    lowest_rear = np.argmin(np.hypot(*(corner - gear.first).T))
     return _Line(np.roll(corner, -lowest_rear, axis=0))
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=_KEPT)
 def _outline_of(circles):
-    """Return the corners (n, 2) round circles (x, z, radius); kept, for an idler is sought beside the same ones."""
+    """Return the corners (n, 2) round circles (x, z, radius)."""
     return _outline(np.concatenate([_corners(*circle) for circle in circles]))
 
 
@@ -174,11 +199,11 @@ def _outline(points):
         ) from None
 
 
-def _walk(vehicle, side, line, start):
+def _walk(line, links, pitch, start):
     """Arc lengths (n + 1,) of pins whose straight distance is the pitch."""
-    arc = np.empty(int(vehicle.tracks.links[side]) + 1)
+    arc = np.empty(links + 1)
     arc[0] = start
-    _lay_pins(line.corner, line.arc, vehicle.tracks.pitch, arc)
+    _lay_pins(line.corner, line.arc, pitch, arc)
     return arc
 
 

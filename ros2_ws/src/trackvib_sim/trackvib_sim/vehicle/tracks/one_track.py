@@ -4,8 +4,9 @@ from enum import IntEnum
 
 import numpy as np
 
+from ...numerics.angles import vector_angle
 from ...numerics.compiled import inlined
-from ...numerics.spatial import rotate, vector_angle
+from ...numerics.spatial import rotate
 from ...rui.sweeps.articulated import apply_wrench
 from .ground import add_ground, find_on_path
 from .nodes import STRIDE, add_links, move_nodes, see_from_hull

@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...numerics.angles import sine_cosine, vector_angle
 from ...numerics.compiled import inlined, kernel
-from ...numerics.spatial import sine_cosine, vector_angle
 from ..body_tree import SIDES, drive_end, sprocket_name
 from .guides import hold
 from .nodes import STRIDE, NodeWorkOffset
