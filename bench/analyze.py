@@ -12,6 +12,7 @@ beside it.
 
 import threading
 import time
+from collections.abc import Sequence
 from importlib import import_module
 from itertools import islice
 from pathlib import Path
@@ -20,6 +21,7 @@ from tempfile import TemporaryDirectory
 import click
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from geometry_msgs.msg import Vector3
 from machine import machine
 from mr_mount_controller.node_base.cdr import find_layout
 from rclpy.serialization import serialize_message
@@ -76,6 +78,9 @@ def write(path, minutes):
         empty.header.frame_id = "some_frame"
         if topic == "/odometry":
             empty.child_frame_id = "another"
+        for field, (size, *vector) in noise.items():
+            if isinstance(getattr(empty, field.partition(".")[0]), Sequence):
+                setattr(empty, field, [Vector3() if vector else 0.0 for _ in range(size)])
         message = serialize_message(empty)
         definition = Definition(type_name, "ros2msg", schema_text(type_name).encode())
         wanted = {f"{stamp}.sec": (), f"{stamp}.nanosec": (), **noise}

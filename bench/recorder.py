@@ -67,8 +67,10 @@ def publish(rate, seconds):
 class Counter(LoopNode):
     """Takes raw messages as a recorder does, and only counts them."""
 
+    NAME = "counter"
+
     def __init__(self):
-        super().__init__("counter", ())
+        super().__init__()
         self.count = 0
         for topic in TOPICS:
             self.create_subscription(Imu, topic, self._on_message, QoSProfile(depth=1000), raw=True)

@@ -120,3 +120,13 @@ def test_refuses_places_that_are_not_there(vehicle, tmp_path, arguments, words):
     assert output.startswith("error: ") and output.count("\n") == 1
     assert all(word in output for word in words)
     assert not list(tmp_path.rglob("*.png"))
+
+
+@SLOW
+@pytest.mark.parametrize(
+    "words", [("--list", "--schema"), ("--schema", "--out", "x.png"), ("--vehicle", "m113", "--list")]
+)
+def test_what_only_prints_stands_alone(vehicle, words):
+    """No option is passed over."""
+    code, output = vehicle(*words)
+    assert code == 2 and "only prints, so it cannot be combined with --" in output

@@ -47,8 +47,9 @@ def trials(chance, count):
 def _leaves(command, path):
     """Yield the words that lead to every command that is not a group, and the command."""
     if isinstance(command, click.Group):
-        for name, each in command.commands.items():
-            yield from _leaves(each, (*path, name))
+        context = click.Context(command)
+        for name in command.list_commands(context):
+            yield from _leaves(command.get_command(context, name), (*path, name))
     else:
         yield path, command
 
@@ -90,7 +91,8 @@ def _wrong(path, command, chance):
     if chance.random() < 0.3 or not options:
         return [chance.choice(NONSENSE)], None
     if chance.random() < 0.1 and not _takes_arguments(command):
-        return chance.choice(([chance.choice(TEXTS)], ["--", "--nonsense"])), None
+        text = chance.choice([text for text in TEXTS if text != "--"])  # which alone says nothing
+        return chance.choice(([text], ["--", "--nonsense"])), None
     option = chance.choice(options)
     if option.is_flag:
         return [f"{option.opts[0]}={chance.choice(TEXTS)}"], option

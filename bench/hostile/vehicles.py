@@ -7,6 +7,7 @@ laid and its static equilibrium sought.
 import copy
 import math
 
+import numpy as np
 import yaml
 from trackvib_sim.data import find_vehicle
 from trackvib_sim.drawings.assembled_vehicle import assemble_vehicle
@@ -33,20 +34,12 @@ def trials(chance, count):
         yield done, lambda text=text: _attempt(text)
 
 
-def _numbers(content):
-    """Return the places of all numbers in a vehicle file: section, item and indices."""
-
-    def inside(value, path):
-        if isinstance(value, list):
-            return [place for k, each in enumerate(value) for place in inside(each, (*path, k))]
-        return [path] if isinstance(value, (int, float)) else []
-
-    return [
-        place
-        for section, items in content.items()
-        for item, quantity in items.items()
-        for place in inside(quantity["value"], (section, item, "value"))
-    ]
+def _numbers(content, path=()):
+    """Return the places of all numbers in a vehicle file that are values of quantities: keys and indices."""
+    if isinstance(content, (dict, list)):
+        inner = content.items() if isinstance(content, dict) else enumerate(content)
+        return [place for key, each in inner for place in _numbers(each, (*path, key))]
+    return [path] if isinstance(content, (int, float)) and "value" in path else []
 
 
 def _wild(content, places, chance):
@@ -71,6 +64,6 @@ def _attempt(text):
         if not isinstance(error, KNOWN) and "must be" not in str(error):
             raise Wrong(f"does not say what is accepted: {error}") from None
         raise
-    if not all(map(math.isfinite, (assembled.mass, *assembled.pins.flat, *state.tree.hinge.flat))):
+    if not all(map(math.isfinite, (assembled.mass, *np.concatenate(assembled.pins).flat, *state.tree.hinge.flat))):
         raise Wrong("a number that is not finite")
     return "a vehicle"

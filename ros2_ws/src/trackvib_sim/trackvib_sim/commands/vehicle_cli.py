@@ -1,6 +1,7 @@
 """The command line's looks at a vehicle: `trackvib vehicle` and `trackvib modes`."""
 
 import click
+from click.core import ParameterSource
 
 from .endings import fail
 from .option_types import FiniteRange, vehicle_option
@@ -43,8 +44,15 @@ def modes(vehicle, current, highest, out):
 )
 @click.option("--list", "listing", is_flag=True, help="Only list the included vehicles.")
 @click.option("--schema", is_flag=True, help="Only print the JSON Schema of vehicle files, for editors.")
-def vehicle(vehicle, out, listing, schema):
+@click.pass_context
+def vehicle(context, vehicle, out, listing, schema):
     """Print a vehicle's parameters, their sources and derived quantities, and draw it to scale."""
+    given = [
+        f"--{name}" for name in ("vehicle", "out") if context.get_parameter_source(name) is ParameterSource.COMMANDLINE
+    ]
+    alone = ["--list"] * listing + ["--schema"] * schema
+    if alone and len(alone + given) > 1:
+        raise click.UsageError(f"{alone[0]} only prints, so it cannot be combined with {(alone + given)[1]}")
     from .result_folder import CommandError  # imported late, as above
     from .vehicle import list_vehicles, print_schema, run_vehicle
 
