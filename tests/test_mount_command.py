@@ -38,6 +38,7 @@ def test_shakes_a_mount_and_fits_its_loops(start_cli, tmp_path):
         (("--vehicle", "m113"), "has no mounts"),
         (("--amplitudes", "0"), "0"),
         (("fit", "nowhere.csv"), "nowhere.csv"),
+        (("fit", "/dev/zero"), "/dev/zero cannot be read: it is not a regular file"),
     ],
 )
 def test_refuses_in_one_line(start_cli, tmp_path, arguments, words):

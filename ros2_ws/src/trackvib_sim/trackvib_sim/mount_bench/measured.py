@@ -1,13 +1,16 @@
 """Measured loops of a mount, as a CSV file has them."""
 
 import csv
-from pathlib import Path
+from io import TextIOWrapper
 from typing import NamedTuple
 
 import numpy as np
+from mr_mount_controller.node_base.plain_text import readable
+
+from ..ordinary_file import open_ordinary
 
 COLUMNS = ("time_s", "displacement_m", "force_N", "current_A")
-LARGEST = 200e6  # bytes
+LARGEST = 200_000_000  # bytes
 MOST_LOOPS, FEWEST_ROWS = 500, 20
 
 
@@ -31,19 +34,26 @@ def read_loops(path):
     Raises
     ------
     LoopsFileError
-        It is no CSV file with `COLUMNS` in its first line, or a row has other than finite numbers; a loop is short,
-        stands still, or its time does not rise.
-    OSError
-        It cannot be read.
+        It cannot be read, is no ordinary file, or no CSV file with `COLUMNS` in its first line, or a row has other than
+        finite numbers; a loop is short, stands still, or its time does not rise.
     """
-    size = Path(path).stat().st_size
-    if size > LARGEST:
-        raise LoopsFileError(f"has {size / 1e6:.0f} MB, accepted: {LARGEST / 1e6:.0f} MB")
-    with Path(path).open(newline="", encoding="utf-8", errors="replace") as file:
-        try:
-            rows = list(_rows(csv.reader(file)))
-        except csv.Error as error:
-            raise LoopsFileError(f"is not a CSV file: {error}") from None
+    name = readable(str(path))
+    try:
+        with open_ordinary(path, LARGEST) as file, _text(file) as text:
+            return _loops(list(_rows(csv.reader(text))))
+    except LoopsFileError as error:
+        raise LoopsFileError(f"{name}: {error}") from None
+    except csv.Error as error:
+        raise LoopsFileError(f"{name} is not a CSV file: {error}") from None
+    except OSError as error:
+        raise LoopsFileError(f"{name} cannot be read: {error.strerror or error}") from None
+
+
+def _text(file):
+    return TextIOWrapper(file, encoding="utf-8", errors="replace", newline="")
+
+
+def _loops(rows):
     values = np.array(rows).reshape(-1, len(COLUMNS))
     begins = np.flatnonzero((np.diff(values[:, 3]) != 0.0) | (np.diff(values[:, 0]) < 0.0)) + 1
     if len(begins) >= MOST_LOOPS:

@@ -6,6 +6,7 @@ from math import isfinite
 import numpy as np
 
 from .reference.placement import parent_rows
+from .table import check_axis
 
 PARALLEL = 1e-9  # rounding allowed of axes and lengths, relative
 
@@ -22,7 +23,7 @@ class CutPin:
     point_a, point_b : sequence of 3 floats
         In the axes of a and b, from their origins [m].
     axis : sequence of 3 floats
-        In a's axes, of any length but zero. (In b's axes it has the same components.)
+        In a's axes, of a length from 1e-6 to 1e6. (In b's axes it has the same components.)
     alpha, beta : float
         Baumgarte's parameters [1/s]. A closure error decays like a vibration of natural frequency beta [rad/s] and
         damping ratio alpha / beta; alpha = beta draws it back fastest.
@@ -60,8 +61,7 @@ def check_pin(bodies, pin):
         values = getattr(pin, item)
         if np.shape(values) != (3,) or not all(map(isfinite, values)):
             raise ValueError(f"{name}: {item} is {values!r}, must be 3 finite numbers")
-    if not any(pin.axis):
-        raise ValueError(f"{name}: axis is {tuple(pin.axis)}, must not be zero")
+    check_axis(f"{name}: axis", pin.axis)
     for item in ("alpha", "beta"):
         value = getattr(pin, item)
         if not (isfinite(value) and value >= 0.0):

@@ -2,11 +2,12 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from math import isfinite
+from math import hypot, isfinite
 
 import numpy as np
 
 KINDS = ("revolute", "prismatic", "locked", "elastic")
+_SHORTEST, _LONGEST = 1e-6, 1e6  # axes
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,7 @@ class Hinge:
     place : sequence of 3 floats
         Hinge point in the parent's axes, from the parent's origin [m].
     axis : sequence of 3 floats
-        Fixed in parent and child alike, of any length but zero; not used by "locked" and "elastic".
+        Fixed in parent and child alike, of a length from 1e-6 to 1e6; not used by "locked" and "elastic".
     prescribed : bool
         The motion of a "revolute" or "prismatic" is given, its torque or force is a result.
     stiffness, damping : sequence of 6 floats
@@ -137,6 +138,12 @@ def _check_inertias(bodies):
         )
 
 
+def check_axis(item, axis):
+    """Raise `ValueError` for the axis (3,) of a hinge from whose length no direction follows."""
+    if not _SHORTEST <= hypot(*axis) <= _LONGEST:
+        raise ValueError(f"{item} is {tuple(axis)}, must be {_SHORTEST:g} to {_LONGEST:g} long")
+
+
 def _check_hinge(body, names):
     hinge = body.hinge
     where = f"hinge {hinge.number} of {_name(body)}"
@@ -147,8 +154,7 @@ def _check_hinge(body, names):
     _check_numbers(f"{where}: place", hinge.place, 3)
     _check_numbers(f"{where}: axis", hinge.axis, 3)
     if hinge.kind in ("revolute", "prismatic"):
-        if not any(hinge.axis):
-            raise ValueError(f"{where}: axis is {tuple(hinge.axis)}, must not be zero")
+        check_axis(f"{where}: axis", hinge.axis)
     elif hinge.prescribed:
         raise ValueError(f"{where}: a {hinge.kind} hinge has no motion to prescribe, only revolute and prismatic have")
     for item in ("stiffness", "damping"):

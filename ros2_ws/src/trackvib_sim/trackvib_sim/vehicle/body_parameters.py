@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from ..rui.table import check_axis
 from .quantities import vector
 from .sections import Gain, Name, Place, RigidBodyParameters
 
@@ -25,8 +26,7 @@ class _AxisParameters(BodyParameters):
 
     @model_validator(mode="after")
     def _some_way(self):
-        if not any(self.axis):
-            raise ValueError(f"axis is {self.axis}, must not be zero")
+        check_axis("axis", self.axis)
         return self
 
 
