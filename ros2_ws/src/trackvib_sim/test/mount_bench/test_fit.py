@@ -54,6 +54,7 @@ def test_known_parameters_come_back(system, loops_file, law, limit):
     assert fit.residual < 0.03
 
 
+@pytest.mark.slow(reason="fits every law")
 @pytest.mark.property
 def test_a_law_without_yield_leaves_more_over(loops_file):
     """Loops that yield are not those of a spring and a damper."""

@@ -36,6 +36,7 @@ def test_a_roughness_of_ones_own_is_found_again(waviness):
     assert np.mean(density[inside] / given.psd(frequency[inside])) == pytest.approx(1.0, abs=0.1)
 
 
+@pytest.mark.slow(reason="long roads")
 @pytest.mark.literature
 def test_roughness_index_by_its_gain():
     """A sine of slope amplitude 1e-3 has 1e-3 times the golden car's gain: 1.5 near 15 m, by its equations of motion.

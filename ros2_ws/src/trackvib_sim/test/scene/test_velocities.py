@@ -19,6 +19,7 @@ pytestmark = pytest.mark.property
 RATE = 10_000  # Hz, of the periods: within a millisecond blows on a tooth change the speed of a sprocket by more
 
 
+@pytest.mark.slow(reason="drives a vehicle")
 def test_velocities_are_those_of_the_poses():
     """Of every body, idlers on their tensioners among them, over one physics step of a drive on a rough road."""
     vehicle, _ = read_vehicle(find_vehicle())

@@ -24,6 +24,7 @@ def run_in(vehicle, speed=5.0, physics=10_000, of=kept_run_in):
     return list(kept_run_in._leaves(of.run_in(vehicle, system, settings)))
 
 
+@pytest.mark.slow(reason="runs in the vehicle twice")
 def test_kept_and_fresh_are_the_same(folder, vehicle, monkeypatch):
     """The first is done and kept, the second is taken from there: nothing is stepped any more."""
     first = run_in(vehicle)

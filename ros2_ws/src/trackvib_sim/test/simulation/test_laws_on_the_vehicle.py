@@ -50,6 +50,7 @@ def test_controller_takes_the_default_vehicle_where_nobody_tells(vehicle):
     assert SPEEDS[0] < vehicle.engine.speed_range[0] and SPEEDS[-1] > vehicle.engine.speed_range[1]
 
 
+@pytest.mark.slow(reason="the modes of each vehicle")
 @pytest.mark.analytic
 @pytest.mark.parametrize(("name", "within"), [("tao2025", 0.03), ("leopard1", 0.1), ("tao2025_free", 0.15)])
 @pytest.mark.parametrize("current", [1.0, 3.0])

@@ -74,6 +74,7 @@ def test_intervals_hold_the_ratio_as_often_as_they_say():
         assert 0.92 <= held / 400 <= 0.98
 
 
+@pytest.mark.slow(reason="long recordings")
 @pytest.mark.analytic
 def test_aligned_by_speed_the_same_speeds_are_compared():
     """Two drives whose level goes with the speed, but which drove at different speeds for different times.
@@ -109,6 +110,7 @@ def test_drives_that_have_nothing_in_common_are_refused():
     assert compared(slow, fast).aligned_by == "none"
 
 
+@pytest.mark.slow(reason="long recordings")
 @pytest.mark.property
 def test_different_rates_and_one_sensor(tmp_path):
     """Compared up to 0.45 of the lower rate; what one drive lacks is empty, and files and report can be written."""

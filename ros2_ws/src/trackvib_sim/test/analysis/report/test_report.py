@@ -153,6 +153,7 @@ def test_without_answers_in_the_bag_none_is_claimed(report):
     assert "Loop: nothing lost, nothing late. no coil_current in the recording" in words and "unanswered" not in words
 
 
+@pytest.mark.slow(reason="a long recording")
 @pytest.mark.analytic
 def test_heat_in_the_mounts_is_that_of_their_samples(report):
     """5 W in each mount from 2 s on: gaps of the sensors, over which less counts, do not change it."""
@@ -163,6 +164,7 @@ def test_heat_in_the_mounts_is_that_of_their_samples(report):
         assert "dissipated in the mounts 80.0 J 10.0 W on average" in _words(report(recording))
 
 
+@pytest.mark.slow(reason="long recordings")
 @pytest.mark.property
 @pytest.mark.parametrize(("samples", "thinned"), [(8000, False), (8001, True)])
 def test_thinning_is_told_where_lines_are_thinned(report, samples, thinned):

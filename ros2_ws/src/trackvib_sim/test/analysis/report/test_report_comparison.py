@@ -78,6 +78,7 @@ def test_vehicle_file_that_cannot_be_read_is_one_row(differences, text, words):
     assert differences(text, text) == []
 
 
+@pytest.mark.slow(reason="a whole report")
 @pytest.mark.property
 def test_vehicle_files_bring_no_elements(differences, tmp_path):
     """Their names and values are words in a table like all else, whatever they say."""
@@ -115,6 +116,7 @@ def test_missing_numbers_are_dashes(whole):
         assert all("(" not in "".join(cells) for cells in _cells(comparison_tables.mounts(pair, NAMES)).values())
 
 
+@pytest.mark.slow(reason="a whole report")
 @pytest.mark.property
 def test_comparison_has_all_that_a_report_on_one_bag_has(whole):
     """Every quantity, the levels about lines, coherence, and the stamps of each bag."""

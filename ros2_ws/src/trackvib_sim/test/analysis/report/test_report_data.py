@@ -62,6 +62,7 @@ def test_spectrogram_is_empty_where_samples_are_missing():
     assert not empty[(found.time < 7.5) | (found.time > 9.5)].any()
 
 
+@pytest.mark.slow(reason="a long recording")
 @pytest.mark.property
 def test_report_data_of_a_long_bag_is_small():
     """Lines and spectrograms do not grow with the bag."""

@@ -58,6 +58,7 @@ def test_momentum_of_tables_with_hinges_of_every_kind(random_table, form):
         assert_allclose(angular, turning, rtol=0, atol=1e-10 * size * np.max(np.abs(at.origin)))
 
 
+@pytest.mark.slow(reason="a hundred trees")
 @pytest.mark.property
 def test_forms_agree_on_hinges_of_every_kind(random_table):
     """Both forms give the same on tables with locked, prescribed and elastic hinges."""

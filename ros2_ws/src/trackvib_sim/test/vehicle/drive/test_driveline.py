@@ -37,6 +37,7 @@ def test_full_load_is_the_files_curve(vehicle, driveline):
     assert full_load(driveline, shaft) == 0.0
 
 
+@pytest.mark.slow(reason="seconds of the driveline")
 @pytest.mark.analytic
 def test_a_steady_torque_comes_through_whole(driveline):
     """With the sprockets held the shafts twist by torque over stiffness."""

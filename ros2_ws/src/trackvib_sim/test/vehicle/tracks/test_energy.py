@@ -117,6 +117,7 @@ def test_drive_work_of_any_vehicle_is_dissipated_or_stored(rolling, audited, lev
     assert lost[Part.TEETH] > 0.0
 
 
+@pytest.mark.slow(reason="seconds of the vehicle")
 def test_engine_feeds_the_standing_vehicle(vehicle, rolling, audited, level_road):
     """The displacement that the engine imposes does the work that, mostly, the mounts turn into heat."""
     _, state = rolling(0.0)
