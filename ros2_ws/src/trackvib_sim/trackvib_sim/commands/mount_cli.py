@@ -1,11 +1,10 @@
 """`trackvib mount`: options of the test bench."""
 
 import click
-from click.core import ParameterSource
 
 from ..mount_bench import LAWS
 from .endings import fail
-from .option_types import FiniteRange, Known, Several, vehicle_option
+from .option_types import FiniteRange, Known, Several, on_command_line, vehicle_option
 from .verbs import Verbs
 
 
@@ -35,7 +34,7 @@ _OUT = click.option(
 def mount(context, **choices):
     """Excite a mount on a simulated test bench; writes its force-displacement loops as picture and CSV."""
     if context.invoked_subcommand is not None:
-        given = [name for name in choices if context.get_parameter_source(name) is ParameterSource.COMMANDLINE]
+        given = on_command_line(context, choices)
         if given:
             raise click.UsageError(f"--{given[0]} cannot be combined with '{context.invoked_subcommand}'")
         return

@@ -3,6 +3,7 @@
 from math import isfinite
 
 import click
+from click.core import ParameterSource
 from mr_mount_controller.node_base.plain_text import number, span
 from mr_mount_controller.node_base.suggestion import suggestion
 
@@ -123,3 +124,8 @@ class _LawOption(click.Option):
 def law_option(name, **settings):
     """The option `name` for a control law, with further settings of `click.option`."""
     return click.option(name, cls=_LawOption, callback=known_law, **settings)
+
+
+def on_command_line(context, names):
+    """Return those of a verb's options, called by `names`, that were given on the command line."""
+    return [name for name in names if context.get_parameter_source(name) is ParameterSource.COMMANDLINE]

@@ -52,9 +52,9 @@ def run(out, files, namespace, one_process, view, **options):
 
     given = {name: value for name, value in {**options, "view": view or None}.items() if value is not None}
     try:
-        choosing = {"given": given, "files": files, "namespace": full_namespace(namespace), "one_process": one_process}
-        choosing["view"] = view
-        lookout = Lookout(choosing["namespace"])
+        namespace = full_namespace(namespace)
+        choosing = dict(given=given, files=files, namespace=namespace, one_process=one_process, view=view)
+        lookout = Lookout(namespace)
         if view:
             from .live_view import run_with_view  # imported late, as below
 

@@ -1,10 +1,9 @@
 """The command line's looks at a vehicle: `trackvib vehicle` and `trackvib modes`."""
 
 import click
-from click.core import ParameterSource
 
 from .endings import fail
-from .option_types import FiniteRange, vehicle_option
+from .option_types import FiniteRange, on_command_line, vehicle_option
 
 
 @click.command()
@@ -47,9 +46,7 @@ def modes(vehicle, current, highest, out):
 @click.pass_context
 def vehicle(context, vehicle, out, listing, schema):
     """Print a vehicle's parameters, their sources and derived quantities, and draw it to scale."""
-    given = [
-        f"--{name}" for name in ("vehicle", "out") if context.get_parameter_source(name) is ParameterSource.COMMANDLINE
-    ]
+    given = [f"--{name}" for name in on_command_line(context, ("vehicle", "out"))]
     alone = ["--list"] * listing + ["--schema"] * schema
     if alone and len(alone + given) > 1:
         raise click.UsageError(f"{alone[0]} only prints, so it cannot be combined with {(alone + given)[1]}")
