@@ -56,7 +56,7 @@ class LoopNode(Node):
         self.settings = {parameter.name: self._declare(parameter) for parameter in self.PARAMETERS}
         self._inputs = []
         self.failure = None  # what a callback has raised to end the node
-        self._idle = Future()  # done, if a callback ends the node
+        self._idle = Future()  # done, where a callback ends `serve`
         self.patience = None
         self.stopping = lambda: False
 
@@ -106,7 +106,7 @@ class LoopNode(Node):
                     on_message(message)
             except NodeError as error:  # raised later: what leaves a callback is logged at length
                 self.failure = error
-                self._idle.set_result(None)
+                self.stop_serving()
 
         self._inputs.append(Listener(self, message_type, topic, take, qos, read))
         return self._inputs[-1].subscription
@@ -138,10 +138,7 @@ class LoopNode(Node):
     def run(self):
         """Do the node's work until it is done or `self.stopping()`; by default answer callbacks."""
         while not self.stopping():
-            # all that comes in one go; a call for each message costs as much as the message
-            self._idle = Future()
-            self.executor.spin_until_future_complete(self._idle, timeout_sec=_TICK)
-            self.raise_failure()
+            self.serve(_TICK)
 
     def raise_failure(self):
         """Raise what a callback has raised to end the node."""
@@ -150,6 +147,19 @@ class LoopNode(Node):
 
     def close(self):
         """Finish what must not be left half done; called once, whatever ended the node."""
+
+    def serve(self, timeout):
+        """Serve all callbacks that wait, and those that come within `timeout` seconds, until `stop_serving`.
+
+        In one go: a call for each message costs as much as the message.
+        """
+        self._idle = Future()
+        self.executor.spin_until_future_complete(self._idle, timeout_sec=timeout)
+        self.raise_failure()
+
+    def stop_serving(self):
+        """End `serve` after the callback at hand."""
+        self._idle.set_result(None)
 
     def spin_once(self, timeout):
         """Serve callbacks that wait; if none does, wait for one for at most `timeout` seconds."""

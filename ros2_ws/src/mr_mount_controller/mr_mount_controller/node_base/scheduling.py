@@ -1,4 +1,4 @@
-"""How the operating system runs a node: in real time, and on which core."""
+"""How the operating system runs a node: in real time, on which core, or after all others."""
 
 import os
 from contextlib import suppress
@@ -16,6 +16,7 @@ SCHEDULING = (
     ),
     Parameter("core", -1, "Core that the process keeps to; -1 for any.", "", -1, 1023),
 )
+_NICE = 10  # more than it had
 _HINT = "not allowed here: needs root, CAP_SYS_NICE or a limit `ulimit -r` as high (rtprio in limits.conf)"
 
 
@@ -28,12 +29,30 @@ def schedule(settings):
         It is not allowed, or there is no such core.
     """
     priority, core = (settings[parameter.name] for parameter in SCHEDULING)
+
+    def place(thread):
+        if core >= 0:
+            _keep_to(thread, core)
+        if priority:
+            _run_in_real_time(thread, priority)
+
+    _each_thread(place)
+
+
+def stand_back():
+    """Let others go first, with every thread that the process has; what wakes one interrupts nobody."""
+
+    def lower(thread):
+        os.setpriority(os.PRIO_PROCESS, thread, os.getpriority(os.PRIO_PROCESS, thread) + _NICE)
+        os.sched_setscheduler(thread, os.SCHED_BATCH, os.sched_param(0))
+
+    _each_thread(lower)
+
+
+def _each_thread(treat):
     for thread in map(int, os.listdir("/proc/self/task")):
         with suppress(ProcessLookupError):  # it has ended meanwhile
-            if core >= 0:
-                _keep_to(thread, core)
-            if priority:
-                _run_in_real_time(thread, priority)
+            treat(thread)
 
 
 def _keep_to(thread, core):

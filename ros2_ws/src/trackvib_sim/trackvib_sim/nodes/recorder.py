@@ -1,6 +1,5 @@
 """The recorder node: writes topics to an MCAP bag as they travel, with the parameters of the nodes behind them."""
 
-import os
 import sys
 import time
 from datetime import datetime
@@ -11,6 +10,7 @@ from mr_mount_controller.node_base.loop_node import LoopNode, NodeError
 from mr_mount_controller.node_base.node_process import run_node
 from mr_mount_controller.node_base.plain_text import plain_line
 from mr_mount_controller.node_base.qos import LATCHED_QOS
+from mr_mount_controller.node_base.scheduling import stand_back
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
 
@@ -26,10 +26,9 @@ from .recorder_parameters import PARAMETERS
 from .topic_choice import TopicChoice, subscribe
 
 _NAMES_TIMEOUT = 3.0  # s
-_REST = 0.02  # s between looks; waking for every message would take the processor from the loop
+_REST = 0.01  # s between looks; less than the loop runs ahead in, more than a message takes
 _FLUSH = 0.5  # s; a recorder that is killed loses this much and a look at most
 _LOOK = 0.5  # s between looks for further topics
-_NICE = 10
 _QUIET = 0.2  # s without a message after which nothing more is expected at the end
 _LAST = 2.0  # s that the end takes at most, should messages never cease; all that had arrived is taken long before
 
@@ -94,7 +93,7 @@ class RecorderNode(LoopNode):
         self._describe(chosen)  # before the loop runs: it takes its time
         self._take_up(chosen)
         self.spin_until(lambda: all(each.get_publisher_count() for each in self._taken))
-        _stand_back()
+        stand_back()  # a recorder that is served at once takes the processor from the loop for every message
         self._report()  # whoever waits for a recorder starts with this
         self.get_logger().info(plain_line(f"recording {len(self._topics)} topics to {self._bag.path}"))
         looked = time.monotonic()
@@ -188,6 +187,7 @@ class RecorderNode(LoopNode):
         if now - self._flushed > _FLUSH:
             self._bag.flush()
             self._flushed = now
+            self.stop_serving()  # should messages never cease
 
     def _report(self):
         for publisher, stamp in (
@@ -198,14 +198,10 @@ class RecorderNode(LoopNode):
             publisher.publish(Time(sec=seconds, nanosec=nanoseconds))
 
     def _take_all(self):
-        """Write all that has arrived, for a while at most; returns whether anything had."""
-        start = before = self._received
-        end = time.monotonic() + _FLUSH
-        while True:
-            self.spin_once(0.0)
-            if self._received == before or time.monotonic() > end:
-                return self._received > start
-            before = self._received
+        """Write all that has arrived, until it is time to flush at most; returns whether anything had."""
+        before = self._received
+        self.serve(0.0)
+        return self._received > before
 
     def _on_message(self, topic, data):
         if self._bag is None or self.failure is not None:
@@ -214,6 +210,7 @@ class RecorderNode(LoopNode):
             self._write(topic, data)
         except (OSError, NodeError) as error:  # raised later: what leaves a callback is logged at length
             self.failure = error
+            self.stop_serving()
 
     def _write(self, topic, data):
         time_in_bag = self._times.add(topic.name, topic.type_name, topic.stamped, data)
@@ -225,12 +222,6 @@ class RecorderNode(LoopNode):
         self._flush_in_time()
         if topic.name.endswith(topics.VEHICLE_DESCRIPTION) and topic.type_name == topics.VEHICLE_DESCRIPTION_TYPE:
             self._bag.add_attachment("vehicle.yaml", deserialize_message(data, message_type(topic.type_name)).data)
-
-
-def _stand_back():
-    """Let the loop go first: a recorder that is served at once takes the processor from it for every message."""
-    os.nice(_NICE)
-    os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))  # nor does a message that comes interrupt the loop
 
 
 def main(args=None):

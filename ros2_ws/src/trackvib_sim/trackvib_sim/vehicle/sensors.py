@@ -28,7 +28,10 @@ class Instrument(NamedTuple):
     @property
     def is_ideal(self) -> bool:
         """Whether there are no errors."""
-        return self == Instrument()
+        return self == _IDEAL
+
+
+_IDEAL = Instrument()
 
 
 class Sensor(NamedTuple):
