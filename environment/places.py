@@ -1,6 +1,10 @@
-"""Where everything lies in a checkout."""
+"""Where everything lies in a checkout, and what it is set up for."""
 
 from pathlib import Path
+from typing import NamedTuple
+
+from environment.ros import Ros
+from environment.system import Interpreter
 
 
 class Places:
@@ -20,3 +24,17 @@ class Places:
         self.python = self.venv / "bin" / "python3"
         self.workspace = self.home / "workspace"
         self.kernels = self.home / "kernels"
+
+
+class Setup(NamedTuple):
+    """What the environment is made for."""
+
+    places: Places
+    ros: Ros
+    python: Interpreter
+
+    @property
+    def lock_file(self) -> Path:
+        """All packages, pinned, for this kind of machine."""
+        name = "requirements-own-ros.lock" if self.ros.prefix else "requirements.lock"
+        return self.places.environment / name

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from environment import SetupError, steps, system
 from environment import ros as ros2
-from environment.places import Places
-from environment.stages import Setup, job_variables, plan
+from environment.places import Places, Setup
+from environment.stages import job_variables, plan
 
 # What the tools of the build take for itself in a path. CMake takes brackets for patterns and drops what is not ASCII;
 # the build's commands go to a shell with nothing but their spaces quoted.

@@ -53,6 +53,14 @@ def fingerprint(value) -> str:
     return hashlib.sha256(json.dumps(value, sort_keys=True).encode()).hexdigest()
 
 
+def hash_of(path: Path) -> str | None:
+    """Hash of a file's contents, None if there is none (a dangling link, a file that is gone again)."""
+    try:
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    except OSError:
+        return None
+
+
 def read_stamp(folder: Path) -> dict | None:
     """What `write_stamp` left in `folder`, or None if the stage was never finished."""
     try:

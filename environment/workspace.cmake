@@ -1,3 +1,5 @@
+# Included by every project of the workspace, and done once all of it is known.
+
 # The ROS 2 wheels' CMake files name include folders of the machine that built the wheels, which CMake refuses because
 # they do not exist here. They are not needed: drop them, once all packages of a project have been found. The files
 # themselves stay as they are; they may be shared with other environments.
@@ -12,3 +14,15 @@ function(_drop_wheel_includes)
   endforeach()
 endfunction()
 cmake_language(DEFER DIRECTORY "${CMAKE_SOURCE_DIR}" CALL _drop_wheel_includes)
+
+# What makes messages known to DDS is a file a message, each of which reads the same headers for a second: compiled as
+# one, they take a third of the time. Others of the generated files define the same names, so that they cannot be one.
+function(_compile_as_one)
+  get_directory_property(targets DIRECTORY "${CMAKE_SOURCE_DIR}" BUILDSYSTEM_TARGETS)
+  foreach(target IN LISTS targets)
+    if(target MATCHES "__rosidl_typesupport_(cpp|fastrtps_c|fastrtps_cpp)$")
+      set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+    endif()
+  endforeach()
+endfunction()
+cmake_language(DEFER DIRECTORY "${CMAKE_SOURCE_DIR}" CALL _compile_as_one)

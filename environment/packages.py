@@ -1,0 +1,80 @@
+"""Python packages of the environment: the lock's, installed by pip into a virtual environment of its own.
+
+A change in this file makes every stage of the set-up anew: its own text is among what they depend on.
+"""
+
+import os
+import re
+
+from environment import SetupError, network
+from environment.extras import Extra
+from environment.places import Places, Setup
+from environment.steps import Task
+
+_PROBE = 4  # s that the first package's server may be silent
+
+# What the kernels are compiled with, and what that needs in turn: installed first, for compiling takes longest.
+_COMPILED_WITH = (
+    "annotated-types", "lazy-loader", "llvmlite", "numba", "numpy", "packaging", "pydantic", "pydantic-core", "pyyaml",
+    "scipy", "typing-extensions", "typing-inspection",
+)  # fmt: skip
+
+
+def make_library(setup: Setup, task: Task) -> None:
+    """Make the virtual environment, with what the kernels are compiled with."""
+    places, ros, python = setup
+    env = _for_pip()
+    share = ["--system-site-packages"] if ros.prefix else []
+    task.run([python.path, "-I", "-m", "venv", *share, str(places.venv)], env)
+    try:  # the first package also shows, soon, whether packages can be had at all
+        _install(setup, ("setuptools",), ["--retries=0", f"--timeout={_PROBE}"], env, task)
+    except SetupError as error:
+        raise SetupError(f"{error}\n{network.settings(env)}") from None
+    _install(setup, _COMPILED_WITH, [], env, task)
+
+
+def make_packages(setup: Setup, task: Task) -> None:
+    """Install all that the lock has; this stage's folder only says that it is there."""
+    # empy comes as source: it is built with the lock's setuptools, which is there, not with what pip would fetch.
+    task.run([*_pip(setup.places), "--no-build-isolation", "-r", str(setup.lock_file)], _for_pip())
+    _compile_modules(setup, task)
+
+
+def make_extra(setup: Setup, extra: Extra, task: Task) -> None:
+    """Install an extra's packages into the environment; its folder only says that they are there."""
+    places, _, python = setup
+    if tuple(map(int, python.version.split(".")[:2])) < extra.python:
+        wanted = ".".join(map(str, extra.python))
+        raise SetupError(f"{extra.what} needs Python {wanted} or later, this environment has {python.version}")
+    task.run([*_pip(places), "--only-binary=:all:", "-r", str(extra.lock(places))], _for_pip())
+    _compile_modules(setup, task)
+
+
+def _pip(places: Places) -> list:
+    """pip as far as the packages; a lock is complete, so nothing has to be resolved."""
+    # -I keeps pip from counting what lies under ~/.local
+    pip = [str(places.python), "-I", "-m", "pip", "--disable-pip-version-check", "--no-input", "install"]
+    return [*pip, "--no-deps", "--no-compile", "--require-hashes", "--progress-bar=off"]
+
+
+def _for_pip() -> dict:
+    """The user's variables, without those that would lead pip astray."""
+    env = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    env["PIP_USER"] = "0"  # a user's configuration may ask for --user, which venv's pip refuses
+    env.pop("PIP_CONSTRAINT", None)  # the lock says it all
+    return env
+
+
+def _install(setup: Setup, names: tuple, options: list, env: dict, task: Task) -> None:
+    """Install some packages of the lock."""
+    chosen = setup.places.venv / "chosen.txt"
+    entry = rf"^(?:{'|'.join(map(re.escape, names))})==(?:.*\\\n)*.*"
+    chosen.write_text("\n".join(re.findall(entry, setup.lock_file.read_text(), re.MULTILINE)))
+    task.run([*_pip(setup.places), *options, "-r", str(chosen)], env)
+
+
+def _compile_modules(setup: Setup, task: Task) -> None:
+    """Have Python's modules compiled, as pip would, but without the tests of the packages: a third of all."""
+    program = "import compileall, re, sys; compileall.compile_dir(sys.argv[1], quiet=2, rx=re.compile('/tests?/'))"
+    (folder,) = setup.places.venv.glob("lib/python*/site-packages")
+    task.run([str(setup.places.python), "-I", "-c", program, str(folder)], _for_pip())
