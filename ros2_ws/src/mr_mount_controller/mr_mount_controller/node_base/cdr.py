@@ -2,9 +2,6 @@
 
 CDR, as ROS 2 speaks it, has no tags: a number's place follows from the definition and from the lengths of the texts and
 sequences before it. Messages of one topic mostly agree in these lengths, and then in every place.
-
-A definition is described without ROS: a field is of the kind `Fields` (a message within the message), `Repeated` (an
-array or a sequence), `TEXT`, or a number, told by its letter in `struct`, which is numpy's as well.
 """
 
 from struct import Struct, calcsize
@@ -12,13 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .field_kinds import TEXT, Fields, least_size
+
 NANO = 1_000_000_000  # ns in a second
-TEXT = "text"
-NUMBERS = {  # by their names in .msg and .idl files
-    "bool": "?", "boolean": "?", "byte": "B", "octet": "B", "char": "B", "int8": "b", "uint8": "B", "int16": "h",
-    "uint16": "H", "int32": "i", "uint32": "I", "int64": "q", "uint64": "Q", "float32": "f", "float": "f",
-    "float64": "d", "double": "d",
-}  # fmt: skip
 _ENCAPSULATION = 4  # bytes before the message; places in it are aligned from their end
 _ORDERS = {b"\x00\x00": ">", b"\x00\x01": "<"}  # by its first two bytes: plain CDR, big and little end first
 _MOST_LENGTHS = 1000  # that are remembered of a message
@@ -27,43 +20,6 @@ _STAMPS = {order: Struct(f"{order}iI") for order in _ORDERS.values()}
 
 class LayoutError(ValueError):
     """A message that does not fit its definition, or a definition that cannot be read."""
-
-
-class Fields:
-    """Kind of a message: its fields, pairs of name and kind.
-
-    Attributes
-    ----------
-    least : int
-        Bytes that it takes at least.
-    """
-
-    def __init__(self, fields):
-        # a message without fields still takes a byte
-        self.fields = tuple(fields) or (("structure_needs_at_least_one_member", "B"),)
-        self.least = sum(_least(kind) for _, kind in self.fields)
-
-    def __eq__(self, other):
-        return isinstance(other, Fields) and self.fields == other.fields
-
-    __hash__ = None
-
-
-class Repeated:
-    """Kind of an array of `count` elements, or of a sequence (`count` None), which tells its length itself.
-
-    A sequence has `most` elements at most, where that is given.
-    """
-
-    def __init__(self, kind, count=None, most=None):
-        self.kind, self.count, self.most = kind, count, most
-        self.least = 4 if count is None else count * _least(kind)
-
-    def __eq__(self, other):
-        """Whether elements stand at the same places; how many there may be at most does not tell."""
-        return isinstance(other, Repeated) and (self.kind, self.count) == (other.kind, other.count)
-
-    __hash__ = None
 
 
 class Layout(NamedTuple):
@@ -164,12 +120,6 @@ class Checker:
         self._values, self._size = self._lengths.unpack_from(message), len(message)
 
 
-def _least(kind):
-    if kind is TEXT:
-        return 4
-    return calcsize(f"={kind}") if isinstance(kind, str) else kind.least
-
-
 def _record(fields, size):
     offsets, formats = zip(*fields.values(), strict=True)
     return np.dtype(dict(names=list(fields), offsets=offsets, formats=formats, itemsize=size))
@@ -201,13 +151,13 @@ class _Walk:
         else:
             count = kind.count
             if count is None:
-                count = self._take_length(name, _least(kind.kind))
+                count = self._take_length(name, least_size(kind.kind))
                 if kind.most is not None and count > kind.most:
                     raise LayoutError(f"field {name} has {count} elements, accepted: at most {kind.most}")
             if isinstance(kind.kind, str) and kind.kind is not TEXT:
                 self._take_numbers(name, kind.kind, count)
                 return
-            self._check_left(count * _least(kind.kind), name)
+            self._check_left(count * least_size(kind.kind), name)
             if not count:
                 self._numbers.append((name, self._end, "B", 0))
             for index in range(count):

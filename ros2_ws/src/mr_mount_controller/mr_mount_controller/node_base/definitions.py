@@ -12,7 +12,8 @@ from rosidl_parser.definition import (
     NamespacedType,
 )
 
-from .cdr import NUMBERS, TEXT, Fields, LayoutError, Repeated
+from .cdr import LayoutError
+from .field_kinds import NUMBERS, TEXT, Fields, Repeated
 
 
 @cache

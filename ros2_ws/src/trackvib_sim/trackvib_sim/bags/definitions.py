@@ -1,8 +1,9 @@
-"""Message definitions of a bag, as `node_base.cdr` wants them; and whole messages by them."""
+"""Message definitions of a bag, as `node_base.field_kinds` has them; and whole messages by them."""
 
 import re
 
-from mr_mount_controller.node_base.cdr import NUMBERS, TEXT, Fields, LayoutError, Repeated, check
+from mr_mount_controller.node_base.cdr import LayoutError, check
+from mr_mount_controller.node_base.field_kinds import NUMBERS, TEXT, Fields, Repeated
 from mr_mount_controller.node_base.plain_text import shortened
 from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore

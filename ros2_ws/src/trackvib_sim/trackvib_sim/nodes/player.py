@@ -10,7 +10,7 @@ from itertools import groupby
 from mr_mount_controller.node_base.cdr import LayoutError
 from mr_mount_controller.node_base.loop_node import LoopNode, NodeError
 from mr_mount_controller.node_base.node_process import run_node
-from mr_mount_controller.node_base.parameters import Parameter, ParameterError
+from mr_mount_controller.node_base.parameters import ParameterError
 from mr_mount_controller.node_base.plain_text import readable
 from mr_mount_controller.node_base.qos import CLOCK_QOS
 from mr_mount_controller.node_base.topics import CLOCK
@@ -20,25 +20,15 @@ from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
 from ..bags.errors import BagError
-from ..bags.limits import LARGEST_CHUNKS, largest_chunk
+from ..bags.limits import largest_chunk
 from ..bags.playing import OpenBag
 from ..numerics.units import NANO
 from .messages import message_type
 from .older_messages import renewal
 from .partners import Gathering
+from .player_parameters import PARAMETERS
 from .run_control import RunControl, services
 
-PARAMETERS = (
-    Parameter("bag", "", "Folder of the bag, or one .mcap file."),
-    Parameter("rate", 1.0, "Bag time per wall time.", "", 0.01, 100.0),
-    Parameter("start", 0.0, "Start time, relative to the first message of the bag.", "s", 0.0, 1e6),
-    Parameter("end", 0.0, "End time, relative to the first message of the bag; 0 for the last message.", "s", 0.0, 1e6),
-    Parameter("loop", False, "Start again at the end."),
-    Parameter("topics", ["*"], "Topics to play, by name or pattern (`*`, `?`)."),
-    Parameter(
-        "largest_chunk", largest_chunk.get(), "Largest accepted size of a record of the bag.", "MiB", *LARGEST_CHUNKS
-    ),
-)
 _DEPTH = 1000  # messages that may wait, or are kept for late joiners; the bag does not tell
 _PLAYED = ("cdr", "")  # encodings of messages; of older recorders' it is not told
 _CLOCK_STEP = NANO // 100  # ns
