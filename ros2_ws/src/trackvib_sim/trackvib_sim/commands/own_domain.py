@@ -6,11 +6,10 @@ import socket
 from contextlib import contextmanager
 from hashlib import sha256
 
-from ..nodes.forked_node import begin_program
+from ..nodes.forked_node import begin_program, fork
 from .result_folder import CommandError
 
 HIGHEST_DOMAIN = 232  # of ROS 2; beyond it DDS has no ports
-_FORK = multiprocessing.get_context("fork")
 
 
 class Lookout:
@@ -18,8 +17,8 @@ class Lookout:
 
     def __init__(self, namespace="/"):
         self.namespace = namespace
-        self._found, there = _FORK.Pipe(duplex=False)
-        _FORK.Process(target=_look, args=(namespace, there), daemon=True).start()
+        self._found, there = multiprocessing.Pipe(duplex=False)
+        fork(_look, namespace, there)
         there.close()
 
     def simulator_is_there(self):

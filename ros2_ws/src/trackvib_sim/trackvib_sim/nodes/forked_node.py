@@ -18,6 +18,7 @@ MODULES = {
     "simulator": "trackvib_sim.nodes.simulator",
 }
 _FORK = multiprocessing.get_context("fork")
+_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 _PR_SET_PDEATHSIG, _PR_SET_NAME = 1, 15  # Linux: signal to a child whose parent has died; name of the process
 
 
@@ -37,8 +38,7 @@ class ForkedNode:
             raise RuntimeError(f"node {name!r} must be forked before ROS 2 is loaded")
         here, there = _FORK.Pipe()
         self._arguments, self._begun = here, False
-        self._process = _FORK.Process(target=_wait_and_run, args=(name, there), daemon=True)
-        self._process.start()
+        self._process = fork(_wait_and_run, name, there)
         there.close()
 
     def begin(self, words, log):
@@ -80,13 +80,28 @@ def _wait_and_run(name, arguments):
     run_program(lambda: importlib.import_module(MODULES[name]).main(), [name, *words], log)
 
 
+def fork(target, *arguments):
+    """Start a process that has all that is loaded here, and ends with this one; `target` begins by `begin_program`.
+
+    Until then signals wait: it still has the handlers of this process, which would have it speak of an end.
+    """
+    process = _FORK.Process(target=target, args=arguments, daemon=True)
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
+    try:
+        process.start()
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    return process
+
+
 def begin_program(name):
     """In a forked process: have a session of its own, the signals of a new process, and a name among processes."""
     os.setsid()
     end_with_parent()
     ctypes.CDLL(None).prctl(_PR_SET_NAME, name.encode())
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    for number in _SIGNALS:
         signal.signal(number, signal.SIG_DFL)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, _SIGNALS)
 
 
 def run_program(main, words, log):
