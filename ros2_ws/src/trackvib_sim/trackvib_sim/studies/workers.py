@@ -24,6 +24,8 @@ _NOISY = ("distributed", "distributed.client", "tornado.application", "tornado.g
 _NO_PAGES = {"distributed.scheduler.http.routes": [], "distributed.worker.http.routes": []}
 # workers are forked from a process that has loaded once what all of them need
 _FORKED = {"distributed.worker.multiprocessing-method": "forkserver"}
+# nor does anybody look at statistics of them: what a worker does is a study's case
+_NO_STATISTICS = {"distributed.worker.profile.enabled": False}
 _SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
@@ -144,7 +146,7 @@ def _local(workers):
     resource_tracker.ensure_running()
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
     try:
-        with dask.config.set(_NO_PAGES | _FORKED):
+        with dask.config.set(_NO_PAGES | _NO_STATISTICS | _FORKED):
             get_mp_context().set_forkserver_preload(["distributed", "trackvib_sim.studies.case"])
             return LocalCluster(
                 n_workers=workers,
