@@ -28,9 +28,11 @@ from rich.table import Table
 
 EXCHANGES = 3000
 SECONDS = 4.0  # of each run
-FREE = ("--realtime-priority", "20", "--core", "0")  # of whatever else the machine does
+CORE = ("--core", "0")
+FREE = ("--realtime-priority", "20", *CORE)  # of whatever else the machine does
 WAYS = {
     "four processes": (),
+    "four processes, core": CORE,
     "one process": ("--one-process",),
     "four processes, priority, core": FREE,
     "one process, priority, core": ("--one-process", *FREE),

@@ -75,6 +75,7 @@ def _install(setup: Setup, names: tuple, options: list, env: dict, task: Task) -
 
 def _compile_modules(setup: Setup, task: Task) -> None:
     """Have Python's modules compiled, as pip would, but without the tests of the packages: a third of all."""
-    program = "import compileall, re, sys; compileall.compile_dir(sys.argv[1], quiet=2, rx=re.compile('/tests?/'))"
     (folder,) = setup.places.venv.glob("lib/python*/site-packages")
-    task.run([str(setup.places.python), "-I", "-c", program, str(folder)], _for_pip())
+    tests = f"{re.escape(str(folder))}.*/tests?/"
+    program = "import compileall, re, sys; compileall.compile_dir(sys.argv[1], quiet=2, rx=re.compile(sys.argv[2]))"
+    task.run([str(setup.places.python), "-I", "-c", program, str(folder), tests], _for_pip())
