@@ -2,6 +2,7 @@
 
 import importlib
 import re
+import shlex
 import sys
 from importlib.util import find_spec
 from xml.etree import ElementTree
@@ -92,7 +93,7 @@ def test_cells_keep_their_signs():
 def test_only_blocks_are_renewed(tmp_path):
     """What stands around the marks stays; what stands in them is the program's, printed or drawn."""
     document = tmp_path / "page.md"
-    draw = f"{sys.executable} -c \"print(3); open('a.png', 'w').write('drawn')\""
+    draw = f"{shlex.quote(sys.executable)} -c \"print(3); open('a.png', 'w').write('drawn')\""
     output, picture = (f"<!-- {kind} of: {draw} -->\n![](a.png)\n<!-- end -->\n" for kind in ("output", "picture"))
     document.write_text(f"before\n<!-- table of: mount -->\nold\n<!-- end -->\n{output}{picture}after\n")
     renew.renew(document, renew.Commands(tmp_path))
@@ -105,7 +106,7 @@ def test_only_blocks_are_renewed(tmp_path):
 def test_commands_that_fail_are_named(tmp_path):
     """A document is not renewed with half an output."""
     with pytest.raises(ValueError, match="exit code 3"):
-        renew.Commands(tmp_path).run(f"{sys.executable} -c 'exit(3)'")
+        renew.Commands(tmp_path).run(f"{shlex.quote(sys.executable)} -c 'exit(3)'")
 
 
 @pytest.mark.parametrize("text", ["<!-- table of: mount -->\n", "<!-- end -->\n"])
