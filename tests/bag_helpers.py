@@ -1,8 +1,10 @@
-"""Bags with a few of their messages or metadata records changed, and what is attached to a bag."""
+"""Bags with a few of their messages or metadata records changed, and what is attached to a bag or counted in it."""
 
+import numpy as np
 from mcap.reader import make_reader
 from mcap.records import Metadata
 from mcap.writer import Writer
+from mcap_ros2.decoder import DecoderFactory
 from trackvib_sim.bags.raw_messages import RawMessage, raw_records
 from trackvib_sim.bags.schemas import schema_text
 
@@ -40,3 +42,11 @@ def attachment(bag, name):
     (file,) = bag.glob("*.mcap")
     with file.open("rb") as stream:
         return [each.data.decode() for each in make_reader(stream).iter_attachments() if each.name == name][-1]
+
+
+def counted(bag, topic):
+    """Return stamps [ns] and counts of the stream's messages in a bag."""
+    with next(bag.glob("*.mcap")).open("rb") as file:
+        decoded = make_reader(file, decoder_factories=[DecoderFactory()]).iter_decoded_messages([topic])
+        found = [(message.log_time, imu.linear_acceleration.x) for _, _, message, imu in decoded]
+    return np.array([stamp for stamp, _ in found]), np.array([count for _, count in found])

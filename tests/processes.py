@@ -3,6 +3,7 @@
 import multiprocessing
 import multiprocessing.forkserver
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -144,3 +145,12 @@ def processes_printing_to(folder):
         except OSError:  # it has ended, or is another user's
             continue
     return found
+
+
+def assert_in_good_health(process):
+    """A process that is asked to end ends well; it has said once of each topic that it refuses messages."""
+    process.signal(signal.SIGINT)
+    assert process.wait() == 0, process.output
+    assert "Traceback" not in process.output
+    refused = re.findall(r"message on (\S+) refused", process.output)
+    assert len(refused) == len(set(refused)), process.output

@@ -11,11 +11,17 @@ import numpy as np
 import pytest
 from trackvib_sim.bags.repair import repair
 
-from .test_recorder import counted, last_words
+from .bag_helpers import counted
 
 STREAM = Path(__file__).parent / "imu_stream.py"
 
 pytestmark = pytest.mark.system
+
+
+def last_words(process):
+    """Return the one error that a process printed."""
+    assert process.output.count("error:") == 1 and "Traceback" not in process.output, process.output
+    return process.output[process.output.index("error:") :]
 
 
 @pytest.fixture

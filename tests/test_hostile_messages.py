@@ -2,7 +2,6 @@
 
 import math
 import re
-import signal
 from itertools import count
 from struct import pack_into
 
@@ -21,6 +20,8 @@ from trackvib_msgs.msg import CoilCurrent, DriveState, RoadProfile
 from trackvib_sim.bags.raw_messages import RawMessage, raw_records
 from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.nodes.messages import ImuMessage, mount_description
+
+from .processes import assert_in_good_health
 
 pytestmark = [pytest.mark.system, pytest.mark.slow(reason="real processes that are sent what nobody expects")]
 
@@ -70,15 +71,6 @@ def send_damaged(observer, topic, listeners):
         return number >= len(cases) and all(words in process.output for process in listeners)
 
     observer.wait_until(all_refuse)
-
-
-def assert_in_good_health(process):
-    """A process that is asked to end ends well; it has said once of each topic that it refuses messages."""
-    process.signal(signal.SIGINT)
-    assert process.wait() == 0, process.output
-    assert "Traceback" not in process.output
-    refused = re.findall(r"message on (\S+) refused", process.output)
-    assert len(refused) == len(set(refused)), process.output
 
 
 def assert_slim(process):

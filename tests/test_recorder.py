@@ -9,8 +9,6 @@ import numpy as np
 import pytest
 import yaml
 from builtin_interfaces.msg import Time
-from mcap.reader import make_reader
-from mcap_ros2.decoder import DecoderFactory
 from mr_mount_controller.node_base.qos import LATCHED_QOS, LOOP_WRITER_QOS
 from rclpy.qos import QoSProfile
 from rosbags.rosbag2 import Reader
@@ -25,7 +23,7 @@ from trackvib_sim.nodes.messages import ImuMessage, MountMessage
 from trackvib_sim.nodes.topic_choice import subscribe
 from trackvib_sim.vehicle.mounts import MountSample
 
-from .bag_helpers import attachment
+from .bag_helpers import attachment, counted
 from .processes import trackvib
 
 STREAM = Path(__file__).parent / "imu_stream.py"
@@ -36,24 +34,10 @@ pytestmark = pytest.mark.system
 SLOW = pytest.mark.slow(reason="kills real recorders")
 
 
-def counted(bag, topic):
-    """Return stamps [ns] and counts of the stream's messages in a bag."""
-    with next(bag.glob("*.mcap")).open("rb") as file:
-        decoded = make_reader(file, decoder_factories=[DecoderFactory()]).iter_decoded_messages([topic])
-        found = [(message.log_time, imu.linear_acceleration.x) for _, _, message, imu in decoded]
-    return np.array([stamp for stamp, _ in found]), np.array([count for _, count in found])
-
-
 def wait_for_more(observer, topic):
     """Wait for so many further messages of a stream as take it half a second."""
     messages = observer.collect(Imu, topic, LOOP_WRITER_QOS)
     observer.wait_until(lambda: len(messages) > 250)
-
-
-def last_words(process):
-    """Return the one error that a process printed."""
-    assert process.output.count("error:") == 1 and "Traceback" not in process.output, process.output
-    return process.output[process.output.index("error:") :]
 
 
 @SLOW

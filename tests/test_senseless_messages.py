@@ -16,7 +16,7 @@ from trackvib_sim.bags.reading import read_recording
 from trackvib_sim.nodes.messages import ImuMessage, mount_description
 
 from .conftest import UNHURRIED
-from .test_hostile_messages import assert_in_good_health
+from .processes import assert_in_good_health
 
 pytestmark = [pytest.mark.system, pytest.mark.slow(reason="real processes that are sent what nobody expects")]
 MS = 1_000_000  # ns

@@ -17,10 +17,9 @@ import pytest
 from PIL import Image
 
 from .processes import PATIENCE
+from .view_helpers import CHASSIS, POWERTRAIN, ROAD, TYRE, near, needs_viewer
 
 pytestmark = pytest.mark.system
-needs_viewer = pytest.mark.skipif(not find_spec("rerun"), reason="no rerun-sdk here: ./trackvib setup --view")
-TYRE, ROAD, CHASSIS, POWERTRAIN = (84, 92, 99), (176, 162, 137), (59, 110, 165), (209, 102, 43)
 
 
 @pytest.fixture
@@ -32,11 +31,6 @@ def view(start_cli, recorded_run):
         return process.wait(), process.output
 
     return make
-
-
-def near(picture, colour, distance):
-    """How many pixels (h, w, 3) are of about a colour."""
-    return int((np.abs(picture.astype(int) - colour).max(axis=-1) < distance).sum())
 
 
 @pytest.mark.slow(reason="drives a run again and draws it")

@@ -20,7 +20,7 @@ from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
 
 from .processes import PATIENCE
-from .test_view import CHASSIS, POWERTRAIN, ROAD, TYRE, near, needs_viewer
+from .view_helpers import CHASSIS, POWERTRAIN, ROAD, TYRE, near, needs_viewer
 
 pytestmark = pytest.mark.system
 DRAWING = 600.0  # s that a browser without a graphics card may take; only a bound for what hangs

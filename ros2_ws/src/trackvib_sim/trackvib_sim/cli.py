@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from importlib import import_module
 
 import click
+from mr_mount_controller.node_base.interrupts import ENDING
 from mr_mount_controller.node_base.plain_text import plain_line
 
 from .commands.endings import INTERRUPTED, UNREAD, fail, say
@@ -90,7 +91,7 @@ def main():
     """Vibration laboratory for a tracked vehicle's powertrain on magnetorheological mounts."""
     # An orderly end, as on Ctrl-C, when the terminal is closed or the process is asked to end; a job started in the
     # background of a script would otherwise ignore Ctrl-C.
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    for number in ENDING:
         signal.signal(number, lambda *_: _interrupt())
     # What libraries make when they are loaded stays. To look through it for garbage time and again, and once more at
     # the end, takes a quarter of a short verb.

@@ -3,7 +3,7 @@
 import signal
 from contextlib import contextmanager
 
-_ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 @contextmanager
@@ -13,7 +13,7 @@ def put_off_interrupts():
     Of the main thread only, as signals are.
     """
     noted = []
-    handlers = {number: signal.signal(number, lambda number, _: noted.append(number)) for number in _ENDING}
+    handlers = {number: signal.signal(number, lambda number, _: noted.append(number)) for number in ENDING}
     try:
         yield
     finally:
@@ -21,3 +21,16 @@ def put_off_interrupts():
             signal.signal(number, handler)
         if noted:
             signal.raise_signal(noted[0])
+
+
+@contextmanager
+def block_interrupts():
+    """Let signals that ask to end wait until after the block; a process that is started in it begins with them waiting.
+
+    Of the calling thread, whatever handlers there are.
+    """
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, ENDING)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

@@ -8,6 +8,8 @@ import signal
 import sys
 from contextlib import suppress
 
+from mr_mount_controller.node_base.interrupts import ENDING, block_interrupts
+
 # Executables by name, and the modules whose `main` each runs.
 MODULES = {
     "controller": "mr_mount_controller.node",
@@ -18,7 +20,6 @@ MODULES = {
     "simulator": "trackvib_sim.nodes.simulator",
 }
 _FORK = multiprocessing.get_context("fork")
-_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 _PR_SET_PDEATHSIG, _PR_SET_NAME = 1, 15  # Linux: signal to a child whose parent has died; name of the process
 
 
@@ -86,11 +87,8 @@ def fork(target, *arguments):
     Until then signals wait: it still has the handlers of this process, which would have it speak of an end.
     """
     process = _FORK.Process(target=target, args=arguments, daemon=True)
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
-    try:
+    with block_interrupts():
         process.start()
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
     return process
 
 
@@ -99,9 +97,9 @@ def begin_program(name):
     os.setsid()
     end_with_parent()
     ctypes.CDLL(None).prctl(_PR_SET_NAME, name.encode())
-    for number in _SIGNALS:
+    for number in ENDING:
         signal.signal(number, signal.SIG_DFL)
-    signal.pthread_sigmask(signal.SIG_UNBLOCK, _SIGNALS)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, ENDING)
 
 
 def run_program(main, words, log):

@@ -26,7 +26,7 @@ from .recorder_parameters import PARAMETERS
 from .topic_choice import TopicChoice, subscribe
 
 _NAMES_TIMEOUT = 3.0  # s
-_REST = 0.01  # s between looks; less than the loop runs ahead in, more than a message takes
+_REST = 0.01  # s between looks, in which no loop comes as far ahead as it may, 100 periods
 _FLUSH = 0.5  # s; a recorder that is killed loses this much and a look at most
 _LOOK = 0.5  # s between looks for further topics
 _QUIET = 0.2  # s without a message after which nothing more is expected at the end
@@ -77,11 +77,9 @@ class RecorderNode(LoopNode):
             last = now = time.monotonic()
             end = now + _LAST
             while now < min(last + _QUIET, end):
-                before = self._received
-                self.spin_once(_QUIET / 10)
-                self._take_all()
+                arrived = self._take_all(_QUIET / 10)
                 now = time.monotonic()
-                last = now if self._received > before else last
+                last = now if arrived else last
             self._complete()
         except OSError as error:
             raise self._given_up(error) from None
@@ -197,20 +195,19 @@ class RecorderNode(LoopNode):
             seconds, nanoseconds = divmod(stamp, NANO)
             publisher.publish(Time(sec=seconds, nanosec=nanoseconds))
 
-    def _take_all(self):
-        """Write all that has arrived, until it is time to flush at most; returns whether anything had."""
+    def _take_all(self, timeout=0.0):
+        """Write all that has arrived, or does within `timeout` [s], until a flush is due; returns whether any has."""
         before = self._received
-        self.serve(0.0)
+        self.serve(timeout)
         return self._received > before
 
     def _on_message(self, topic, data):
-        if self._bag is None or self.failure is not None:
+        if self._bag is None:
             return
         try:
             self._write(topic, data)
-        except (OSError, NodeError) as error:  # raised later: what leaves a callback is logged at length
-            self.failure = error
-            self.stop_serving()
+        except OSError as error:
+            raise self._given_up(error) from None
 
     def _write(self, topic, data):
         time_in_bag = self._times.add(topic.name, topic.type_name, topic.stamped, data)

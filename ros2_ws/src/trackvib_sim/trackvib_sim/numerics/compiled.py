@@ -48,8 +48,8 @@ class _Part(CPUDispatcher):
     function is compiled once more, with that code.
     """
 
-    def __call__(self, *arguments):
-        return self._for_python(*arguments)
+    def __call__(self, *arguments, **named):
+        return self._for_python(*arguments, **named)
 
     @cached_property
     def _for_python(self):

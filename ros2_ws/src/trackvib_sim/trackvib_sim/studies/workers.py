@@ -3,7 +3,6 @@
 import asyncio
 import logging
 import os
-import signal
 from contextlib import ExitStack, contextmanager
 from itertools import islice
 from multiprocessing import resource_tracker
@@ -12,6 +11,7 @@ import dask
 from dask.system import CPU_COUNT
 from distributed import CancelledError, Client, KilledWorker, LocalCluster, Security, TimeoutError, rpc, wait
 from distributed.utils import get_mp_context
+from mr_mount_controller.node_base.interrupts import block_interrupts
 
 from .case import drive
 from .case_store import program
@@ -22,11 +22,10 @@ LONG_PATIENCE = 30.0  # s for a worker that died to be started again
 _NOISY = ("distributed", "distributed.client", "tornado.application", "tornado.general")
 # scheduler and workers always have an HTTP server; without routes it has nothing to tell
 _NO_PAGES = {"distributed.scheduler.http.routes": [], "distributed.worker.http.routes": []}
+# nor does anybody look at profiles of workers, which take a twentieth of a case
+_NO_PROFILES = {"distributed.worker.profile.enabled": False}
 # workers are forked from a process that has loaded once what all of them need
 _FORKED = {"distributed.worker.multiprocessing-method": "forkserver"}
-# nor does anybody look at statistics of them: what a worker does is a study's case
-_NO_STATISTICS = {"distributed.worker.profile.enabled": False}
-_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class WorkersError(RuntimeError):
@@ -144,21 +143,17 @@ def _local(workers):
     os.environ["PYTHONSAFEPATH"] = "1"
     # the tracker would let signals through again when it starts
     resource_tracker.ensure_running()
-    mask = signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
-    try:
-        with dask.config.set(_NO_PAGES | _NO_STATISTICS | _FORKED):
-            get_mp_context().set_forkserver_preload(["distributed", "trackvib_sim.studies.case"])
-            return LocalCluster(
-                n_workers=workers,
-                threads_per_worker=1,
-                memory_limit=None,
-                security=Security.temporary(),
-                dashboard_address=None,
-                scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},  # where its HTTP server is: any free port
-                silence_logs=logging.CRITICAL,
-            )
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+    with block_interrupts(), dask.config.set(_NO_PAGES | _NO_PROFILES | _FORKED):
+        get_mp_context().set_forkserver_preload(["distributed", "trackvib_sim.studies.case"])
+        return LocalCluster(
+            n_workers=workers,
+            threads_per_worker=1,
+            memory_limit=None,
+            security=Security.temporary(),
+            dashboard_address=None,
+            scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},  # where its HTTP server is: any free port
+            silence_logs=logging.CRITICAL,
+        )
 
 
 def _check_scheduler(address):
