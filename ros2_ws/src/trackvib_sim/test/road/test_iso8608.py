@@ -145,3 +145,20 @@ def test_road_has_no_short_period():
     road = Iso8608Road("E", 1, -10.0, 1.0)
     near, far = road.heights(0, 2000)[0], road.heights(20_000, 2000)[0]
     assert abs(np.corrcoef(near - near.mean(), far - far.mean())[0, 1]) < 0.9
+
+
+@pytest.mark.analytic
+@pytest.mark.parametrize("first", [1000, 20_000_000, 2_000_000_000])
+def test_heights_are_the_sum_of_their_harmonics(first):
+    """As numpy sums cosines with phases, near the start and 100 000 km away.
+
+    Bound: the rounding of the sum, and that of angles of so many radians, which moves the profile along its slope.
+    """
+    road = Iso8608Road("E", 5, -1000.0, 1.0)
+    frequency, parts = road._harmonics
+    heights, distance = road.heights(first, 50), road.spacing * np.arange(first, first + 50)
+    for side, (cosine, sine) in zip(heights, parts, strict=True):
+        angle = np.multiply.outer(distance, frequency) + np.arctan2(sine, cosine)
+        rounding = 4.0 * np.finfo(float).eps * (1.0 + np.abs(angle).max())
+        expected = np.cos(angle) @ np.hypot(cosine, sine)
+        assert np.abs(side - expected).max() < rounding * np.hypot(cosine, sine).sum()

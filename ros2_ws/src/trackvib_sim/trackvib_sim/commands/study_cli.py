@@ -170,9 +170,9 @@ def calibrate(generations, plan, without, vehicle, scheduler, out):
 @click.option(
     "--phases",
     type=WholeRange(1, 100),
-    default=4,
+    default=16,
     show_default=True,
-    help="Runs per case, each with its own phase between the two tracks; variants use half of them.",
+    help="Runs per case, each with its own phase between the two tracks; variants have two of them.",
 )
 @_SCHEDULER
 @_out("m113")

@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.special import k1
 
+from ..numerics.angles import sine_cosine
 from ..numerics.compiled import kernel
 from .classes import CLASSES
 
@@ -149,16 +150,21 @@ class Iso8608Road:
 
     @cached_property
     def _harmonics(self):
+        """Angular spatial frequencies (h,) [rad/m] and, of left and right, parts (2, 2, h) with cosine and sine [m]."""
         random = np.random.default_rng(self.seed)
         given = roughness_of(self.roughness) if isinstance(self.roughness, str) else self.roughness
         edges = np.geomspace(given.lowest, given.highest, HARMONICS + 1)
         frequency = edges[:-1] + (edges[1:] - edges[:-1]) * random.random(HARMONICS)
         amplitude = np.sqrt(2.0 * given.psd(frequency) * (edges[1:] - edges[:-1]))
         common = self.coherence(frequency)
+        shared, *own = 2.0 * np.pi * random.random((3, HARMONICS))
         # each side is a shared part and one of its own: G_lr = coherence * G, G_ll = G_rr = G
-        weights = amplitude * np.stack((np.sqrt(common), np.sqrt(1.0 - common)))
-        phases = 2.0 * np.pi * random.random((3, HARMONICS))
-        return frequency, weights, phases
+        parts = [
+            amplitude * (np.sqrt(common) * turn(shared) + np.sqrt(1.0 - common) * turn(phase))
+            for phase in own
+            for turn in (np.cos, np.sin)
+        ]
+        return 2.0 * np.pi * frequency, np.reshape(parts, (2, 2, HARMONICS))
 
 
 def _heights(road, first, count):
@@ -171,15 +177,14 @@ _kept = lru_cache(KEPT)(_heights)
 
 
 @kernel
-def _superpose(heights, first, spacing, frequency, weights, phases, level_until, fade):
+def _superpose(heights, first, spacing, frequency, parts, level_until, fade):
     for i in range(heights.shape[1]):
         distance = (first + i) * spacing
         left, right = 0.0, 0.0
         for h in range(frequency.size):
-            angle = 2.0 * np.pi * frequency[h] * distance
-            shared = weights[0, h] * np.cos(angle + phases[0, h])
-            left += shared + weights[1, h] * np.cos(angle + phases[1, h])
-            right += shared + weights[1, h] * np.cos(angle + phases[2, h])
+            sine, cosine = sine_cosine(frequency[h] * distance)
+            left += parts[0, 0, h] * cosine - parts[0, 1, h] * sine
+            right += parts[1, 0, h] * cosine - parts[1, 1, h] * sine
         progress = min(max((abs(distance) - level_until) / fade, 0.0), 1.0)
         window = 0.5 - 0.5 * np.cos(np.pi * progress)
         heights[0, i] = window * left

@@ -6,17 +6,16 @@ import numpy as np
 
 from ...simulation.open_loop import CHUNK, run_open_loop
 from ...simulation.run_in import CannotRoll
-from ...simulation.settings import Rates, RunSettings
+from ...simulation.settings import RunSettings
 from ...simulation.simulation import Probe, RunFailed, Simulation
 from ...vehicle.sensors import sensors_of
 from ...vehicle.system import Operation
-from ..case import GOOD
+from ..case import GOOD, rates_for
 from .measures import ROAD_BORNE, levels, within
 from .reference import RATE, ROUGH, references, road_of
 from .road_share import road_share
 from .variants import VARIANTS
 
-RATES = Rates(physics=20_000, control=RATE, odometry=100)
 CORRELATION, ROAD_SHARE, RESISTANCE = "correlation", "follows the road", "resistance"
 TENSIONERS = ("left tensioner", "right tensioner")
 _STEP = 0.1  # m between samples of the road-borne part
@@ -45,7 +44,7 @@ def drive_m113(vehicle, case):
     """Run a case and return its `M113Result`; a run that leaves the valid range is a result, too."""
     reference = references()[case.road, case.speed]
     driven = VARIANTS[case.variant].change(vehicle)
-    settings = RunSettings(Operation(reference.speed, 0.0, False, case.track_phase), RATES, 0.0)
+    settings = RunSettings(Operation(reference.speed, 0.0, False, case.track_phase), rates_for(driven), 0.0)
     try:
         chassis, *_ = sensors_of(driven)
         simulation = Simulation(driven, settings, [Probe(chassis.body, chassis.place)])
@@ -95,5 +94,5 @@ def _drive(simulation, road, reference):
 
     run = run_open_loop(simulation, road, before + len(reference.vertical), look)
     place = np.interp(np.arange(len(run.time)), begun, distances)
-    vertical = run.probed[:, 0, 2].reshape(-1, RATES.steps).mean(axis=1)  # as the reference has it
+    vertical = run.probed[:, 0, 2].reshape(len(run.time), -1).mean(axis=1)  # as the reference has it
     return vertical[before:], place[before:], np.array(forces[before // CHUNK :])

@@ -34,8 +34,8 @@ def _head(phases):
     return f"""# The M113 compared with Project Chrono
 
 Vertical acceleration of the hull at its centre of mass, RMS in m/s²: ours / theirs, and in brackets the factor between
-them; **bold** where the goal is not met. Ours is the quadratic mean over {phases} phases between the tracks, at
-20 kHz; theirs is one run of 6 s per case. Goals:
+them; **bold** where the goal is not met. Ours is the quadratic mean over {phases} phases between the tracks;
+theirs is one run of 6 s per case. Goals:
 
 * {_HIGH} within {GOALS[_HIGH]:g};
 * third octaves there within {GOALS[octave_name(THIRD_OCTAVES[0])]:g};
@@ -149,7 +149,7 @@ def _variants(factors):
         "## Sources of differences",
         "",
         "Variants with one change each: levels relative to those of the vehicle file, geometric mean over the four",
-        "cases (0.5-5 Hz and correlation: the rough road; correlation as is), over every second phase.",
+        "cases (0.5-5 Hz and correlation: the rough road; correlation as is), over the phases of the variants.",
         "",
         *_header("variant", *FACTORS),
     ]

@@ -15,7 +15,7 @@ from ...simulation.settings import RunSettings
 from ...simulation.simulation import Simulation
 from ...vehicle.body_tree import GRAVITY
 from ...vehicle.system import Operation
-from .case import RATES
+from ..case import rates_for
 from .reference import LEVEL, road_of
 
 WHEEL_X = np.array([[-0.655, -1.322, -1.989, -2.656, -3.322], [-0.740, -1.407, -2.074, -2.740, -3.407]])  # m, assembled
@@ -104,7 +104,7 @@ def reference_ride_frequencies():
 
 def standing_wheel_loads(vehicle):
     """Return what a standing vehicle's wheels put on their arms, (2, stations) N, as its run-in leaves it."""
-    simulation = Simulation(vehicle, RunSettings(Operation(0.0, 0.0, False), RATES, 0.0))
+    simulation = Simulation(vehicle, RunSettings(Operation(0.0, 0.0, False), rates_for(vehicle), 0.0))
     run_open_loop(simulation, road_of(LEVEL), SETTLING)
     bars, arms = simulation.system.suspension, vehicle.swing_arms
     jounce = simulation.state.tree.hinge[bars.row]

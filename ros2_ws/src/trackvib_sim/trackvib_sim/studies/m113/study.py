@@ -12,9 +12,10 @@ from ...rui.linear.modes import modes
 from ...vehicle.linear_vehicle import build_linear_vehicle
 from ...vehicle.system import Operation, build_system
 from ...vehicle.vehicle_file import read_vehicle
+from ..case import rates_for
 from ..case_store import CaseStore
 from ..run_missing import run_shown
-from .case import RATES, ROAD_SHARE, M113Case, M113Result, drive_m113
+from .case import ROAD_SHARE, M113Case, M113Result, drive_m113
 from .measures import LINES, LINES_SHARE, line_name
 from .picture import m113_picture
 from .reference import references
@@ -33,7 +34,7 @@ def run_m113(phases, scheduler, out):
     Parameters
     ----------
     phases : int
-        Number of runs a case, each with its own phase between the two tracks; variants use half of them.
+        Number of runs a case, each with its own phase between the two tracks; variants have two of them.
     scheduler, out
         As `table1.run_table1` takes them.
 
@@ -59,18 +60,19 @@ def run_m113(phases, scheduler, out):
 
 
 def cases(phases):
-    """Return the cases of the study: the vehicle at all phases, variants at every second one."""
+    """Return the cases of the study: the vehicle at all phases, variants at the first and the middle one."""
     return [
         M113Case(variant, road, speed, k / phases)
         for variant in VARIANTS
         for road, speed in references()
-        for k in range(0, phases, 1 if variant == BASE else 2)
+        for k in (range(phases) if variant == BASE else sorted({0, phases // 2}))
     ]
 
 
 def ride_frequencies(vehicle):
     """Return heave and pitch [Hz] by name, each ours and the reference's."""
-    model = build_linear_vehicle(vehicle, build_system(vehicle, Operation(0.0, 0.0, False), 1.0 / RATES.physics), 0.0)
+    step = 1.0 / rates_for(vehicle).physics
+    model = build_linear_vehicle(vehicle, build_system(vehicle, Operation(0.0, 0.0, False), step), 0.0)
     swinging = [mode for mode in modes(model, HIGHEST) if not mode.overdamped]
     theirs = dict(zip(("heave", "pitch"), reference_ride_frequencies(), strict=True))
     ours = {name: next(mode.frequency for mode in swinging if f"whole {name}" in str(describe(model, mode)))
