@@ -62,7 +62,7 @@ def _build_variables(setup: Setup, of_ros: dict) -> dict:
 def _colcon(places: Places, ros: Ros, executor: str) -> list:
     """The command that builds the workspace, up to the folder to install to."""
     cmake = ["-G", "Ninja", f"-DPython3_EXECUTABLE={places.python}", "-DBUILD_TESTING=OFF"]
-    cmake.append(f"-DCMAKE_PROJECT_INCLUDE={places.environment / _SETTINGS}")
+    cmake += [f"-DCMAKE_PROJECT_INCLUDE={places.environment / _SETTINGS}", f"-DFROM_WHEELS={not ros.prefix}"]
     # Not the `colcon` script: its first line cannot name an interpreter whose path has a space.
     colcon = [str(places.python), "-c", "import sys; from colcon_core.command import main; sys.exit(main())", "build"]
     how = ["--symlink-install", "--executor", executor, "--cmake-args", *cmake]
