@@ -1,15 +1,9 @@
 # Included by every project of the workspace. `FROM_WHEELS` is on where ROS 2 itself comes as Python wheels.
 
-# Typesupports that are compiled as one: each message's file reads the same headers for half a second, so that one file
-# of all takes a third of the time. Others of the generated files define the same names and cannot be one.
-set(_whole cpp fastrtps_c fastrtps_cpp)
-
 if(FROM_WHEELS)
-  # The wheels have no C++ nodes, and one DDS, which needs no introspection: half of the code would serve nobody.
+  # The wheels have no C++ nodes: what only those need, a third of the work, would serve nobody.
   find_package(rosidl_default_generators QUIET)
-  list(FILTER AMENT_EXTENSIONS_rosidl_generate_idl_interfaces EXCLUDE REGEX "introspection|_cpp:")
-  set(STATIC_ROSIDL_TYPESUPPORT_C rosidl_typesupport_fastrtps_c)
-  list(APPEND _whole c)  # as it then chooses between no others
+  list(FILTER AMENT_EXTENSIONS_rosidl_generate_idl_interfaces EXCLUDE REGEX "_cpp:")
 
   # The wheels' CMake files name include folders of the machine that built the wheels, which CMake refuses because they
   # do not exist here. They are not needed: drop them, once all packages of a project have been found. The files
@@ -27,14 +21,14 @@ if(FROM_WHEELS)
   cmake_language(DEFER DIRECTORY "${CMAKE_SOURCE_DIR}" CALL _drop_wheel_includes)
 endif()
 
+# What makes messages known to DDS is a file a message, each of which reads the same headers for a second: compiled as
+# one, they take a third of the time. Others of the generated files define the same names, so that they cannot be one.
 function(_compile_as_one)
   get_directory_property(targets DIRECTORY "${CMAKE_SOURCE_DIR}" BUILDSYSTEM_TARGETS)
-  foreach(kind IN LISTS _whole)
-    foreach(target IN LISTS targets)
-      if(target MATCHES "__rosidl_typesupport_${kind}$")
-        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
-      endif()
-    endforeach()
+  foreach(target IN LISTS targets)
+    if(target MATCHES "__rosidl_typesupport_(cpp|fastrtps_c|fastrtps_cpp)$")
+      set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+    endif()
   endforeach()
 endfunction()
 cmake_language(DEFER DIRECTORY "${CMAKE_SOURCE_DIR}" CALL _compile_as_one)
