@@ -1,6 +1,7 @@
 """What a bag tells of a run, as columns of numbers."""
 
 from collections import Counter
+from collections.abc import Collection
 from pathlib import Path
 from types import MappingProxyType
 from typing import NamedTuple
@@ -112,7 +113,7 @@ class Recording(NamedTuple):
     odometry: Odometry | None
     drive: Drive | None
     commands: Commands | None
-    road: list  # of patches (start, spacing, left, right), m
+    road: Collection  # of patches (start, spacing, left, right), m
     vehicle: str | None  # text of the vehicle file
     drive_file: str | None  # text of the drive file, empty where there was none
     loop_counts: LoopCounts

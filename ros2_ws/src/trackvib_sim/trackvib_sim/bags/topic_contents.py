@@ -1,5 +1,7 @@
 """What messages on the topics that we know contain, as far as a bag has been read, and the `Recording` made of it."""
 
+from array import array
+
 import numpy as np
 from mr_mount_controller.mounting import described
 from mr_mount_controller.node_base import topics
@@ -15,6 +17,7 @@ from .opening import how_to_convert
 from .places import PLACE_TYPES, Places
 from .provenance import law_change
 from .recording import LoopCounts, Recording
+from .road_patches import RoadPatches
 from .sources import end_of_sensor
 from .transforms import TF_STATIC, transforms_in
 
@@ -30,7 +33,8 @@ class TopicContents:
         self._by_log, self._sources = by_log, sources
         self._accelerations, self._places, self._transforms = Accelerations(sources, by_log), Places(by_log), {}
         self._columns, self._roads, self._texts, self._mountings = {}, {}, {}, {}  # by topic
-        self._loop_counts, self._diagnostics, self._ros_1 = [], {}, set()
+        self._loop_counts = array("q")  # rows of `LoopCounts`, one behind the other
+        self._diagnostics, self._ros_1 = {}, set()
         self._law_changes = {}  # by topic
 
     def end_of(self, topic, schema, count):
@@ -75,9 +79,8 @@ class TopicContents:
             elif end == topics.LAW_PARAMETERS:
                 self._law_changes.setdefault(topic, []).append(law_change(message))
             elif end == topics.ROAD_PROFILE:
-                # copies, for these arrays would keep the whole part in memory
-                heights = message.left.copy(), message.right.copy()
-                self._roads.setdefault(topic, []).append((message.start, message.spacing, *heights))
+                patches = self._roads.setdefault(topic, RoadPatches())
+                patches.add(message.start, message.spacing, message.left, message.right)
             else:
                 self._take_diagnostics(message)
 
@@ -87,7 +90,7 @@ class TopicContents:
         if "silent_periods" in values:
             stamp = message.header.stamp
             answers = sum(int(values.get(outcome, 0)) for outcome in _ANSWERS)
-            self._loop_counts.append((stamp.sec * NANO + stamp.nanosec, int(values["silent_periods"]), answers))
+            self._loop_counts.extend((stamp.sec * NANO + stamp.nanosec, int(values["silent_periods"]), answers))
 
     def recording(self, path, **whole):
         """Return it all; `whole` are the items of the `Recording` that are of no topic.
@@ -127,8 +130,9 @@ class TopicContents:
         chosen |= {end_of_sensor(name): origin.source for name, (_, origin) in sensors.items()}
         if topics.ODOMETRY not in chosen and odometry is not None:
             chosen[topics.ODOMETRY] = ""
+        counts = np.array(self._loop_counts, np.int64).reshape(-1, 3)
         # the first word of the next run may be among the last ones of this
-        counts = np.array(sorted(self._loop_counts), np.int64).reshape(-1, 3)
+        counts = counts[np.lexsort(counts.T[::-1])]
         return Recording(
             path=path,
             topics=chosen,

@@ -6,10 +6,11 @@ import os
 from contextlib import ExitStack, contextmanager
 from itertools import islice
 from multiprocessing import resource_tracker
+from queue import Empty, SimpleQueue
 
 import dask
 from dask.system import CPU_COUNT
-from distributed import CancelledError, Client, KilledWorker, LocalCluster, Security, TimeoutError, rpc, wait
+from distributed import CancelledError, Client, KilledWorker, LocalCluster, Security, TimeoutError, rpc
 from distributed.utils import get_mp_context
 from mr_mount_controller.node_base.interrupts import block_interrupts
 
@@ -99,16 +100,19 @@ def finished(client, function, tasks):
         Scheduler or workers are gone, or cannot do it.
     """
     waiting, number = iter(enumerate(tasks)), {}  # the latter of each future that is not done
+    done = SimpleQueue()  # `wait` for the first of many would wait for each of them anew every time
     # thousands handed out at once would cost more than they take
     most = max(LEAST_AHEAD, AHEAD * sum(client.nthreads().values()))
     try:
         while True:
             for k, task in islice(waiting, most - len(number)):
-                number[client.submit(function, *task, pure=False)] = k
+                future = client.submit(function, *task, pure=False)
+                number[future] = k
+                future.add_done_callback(done.put)
             if not number:
                 return
-            for future in _next(client, set(number)):
-                yield number.pop(future), future.result()
+            future = _next(client, done)
+            yield number.pop(future), future.result()
     except CancelledError:
         raise WorkersError("the connection to the Dask scheduler is lost") from None
     except KilledWorker as error:
@@ -117,12 +121,12 @@ def finished(client, function, tasks):
         raise WorkersError(f"a worker cannot load trackvib: {error}") from None
 
 
-def _next(client, pending):
-    """Wait until one of the futures is done; returns the set of those done."""
+def _next(client, done):
+    """Wait until another future is done; returns it."""
     while True:
         try:
-            return wait(pending, PATIENCE, "FIRST_COMPLETED").done
-        except TimeoutError:
+            return done.get(timeout=PATIENCE)
+        except Empty:
             if not client.nthreads():
                 _wait_for_worker(client, LONG_PATIENCE)
 
