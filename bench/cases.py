@@ -3,19 +3,23 @@
     ./trackvib exec -- python bench/cases.py [--cases 10000]
 
 Cases of 2 s of the default vehicle, each on a road of its own, go to one Dask worker a core as in every study. Beside
-them, before and after, the same drives in this process, physics alone. Processor time of all processes is compared.
+them, before and after, drives go to one bare process a core, which counts physics alone: a core is slower where the
+others work as well. Processor time is compared.
 """
 
 import argparse
 import tempfile
 import threading
 import time
+from concurrent.futures import ProcessPoolExecutor
 from contextlib import suppress
+from itertools import repeat
 from pathlib import Path
 from statistics import mean
 
 import psutil
 import trackvib_sim as tv
+from dask.system import CPU_COUNT
 from machine import machine
 from rich.console import Console
 from rich.progress import Progress
@@ -25,7 +29,7 @@ from trackvib_sim.studies.run_missing import run_missing
 from trackvib_sim.vehicle.vehicle_file import read_vehicle
 
 DURATION = 2.0  # s measured, after settling
-ALONE = 12  # drives of physics alone, before and after
+ALONE = 12 * CPU_COUNT  # drives of physics alone, before and after
 
 
 def drive(vehicle, wanted):
@@ -56,15 +60,16 @@ def main():
     vehicle, _ = read_vehicle(file)
     *before, first = cases(ALONE + 1)
     after = cases(2 * ALONE + 1)[ALONE + 1 :]  # other roads: heights once computed are kept
-    physics(vehicle, first)
-    alone = [physics(vehicle, wanted) for wanted in before]
+    with ProcessPoolExecutor(CPU_COUNT, initializer=physics, initargs=(vehicle, first)) as bare:
+        alone = [*bare.map(physics, repeat(vehicle), before)]
     with tempfile.TemporaryDirectory() as folder, Progress(console=Console(stderr=True)) as progress:
         store = CaseStore(folder, file.read_text(encoding="utf-8"))
         watch, began = Watch(), time.monotonic()
         found = run_missing(vehicle, cases(count), store, None, progress, "cases", drive)
         took, spent = time.monotonic() - began, watch.end()
         size = sum(path.stat().st_size for path in Path(folder).iterdir())
-    alone += [physics(vehicle, wanted) for wanted in after]
+    with ProcessPoolExecutor(CPU_COUNT, initializer=physics, initargs=(vehicle, first)) as bare:
+        alone += bare.map(physics, repeat(vehicle), after)
     assert len(found) == count and all(result.status == case.GOOD for result in found.values())
     print(f"{count} cases of {DURATION:g} s, {machine()}")
     print(f"a case: {spent / count:.3f} s of processor, its physics {mean(alone):.3f} s,"
