@@ -136,14 +136,16 @@ def of_nobody():
 )
 def test_another_user_gets_the_compiled_kernels(run, env, of_nobody, place, job):
     """They are copied to the one place where he can write; then a run, or what calls every kernel, compiles none."""
-    compiled = _contents(Path(env["NUMBA_CACHE_DIR"]))
+    kernels = Path(env["NUMBA_CACHE_DIR"])
+    compiled = _contents(kernels)
     own = {"PATH": env["PATH"], "HOME": "/nonexistent", "ROS_DOMAIN_ID": env["ROS_DOMAIN_ID"], place: str(of_nobody)}
     env.clear()
     env.update(own)
     code, output = run(*AS_NOBODY, "env", "-C", of_nobody, TRACKVIB, *job)
     assert code == 0, output
     (copy,) = {index.parents[1] for index in of_nobody.rglob("*.nbi")}
-    assert _contents(copy) == compiled
+    # tests beside this one may have compiled something before and after the copy was made
+    assert compiled.items() <= _contents(copy).items() <= _contents(kernels).items()
 
 
 def _contents(kernels):
