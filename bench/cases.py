@@ -51,6 +51,12 @@ def physics(vehicle, wanted):
     return time.process_time() - began
 
 
+def on_all_cores(vehicle, first, cases):
+    """Return `physics` of each case, in one bare process a core; each has driven a first one before them."""
+    with ProcessPoolExecutor(CPU_COUNT, initializer=physics, initargs=(vehicle, first)) as bare:
+        return [*bare.map(physics, repeat(vehicle), cases)]
+
+
 def main():
     """Drive, count, print."""
     arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -60,16 +66,14 @@ def main():
     vehicle, _ = read_vehicle(file)
     *before, first = cases(ALONE + 1)
     after = cases(2 * ALONE + 1)[ALONE + 1 :]  # other roads: heights once computed are kept
-    with ProcessPoolExecutor(CPU_COUNT, initializer=physics, initargs=(vehicle, first)) as bare:
-        alone = [*bare.map(physics, repeat(vehicle), before)]
+    alone = on_all_cores(vehicle, first, before)
     with tempfile.TemporaryDirectory() as folder, Progress(console=Console(stderr=True)) as progress:
         store = CaseStore(folder, file.read_text(encoding="utf-8"))
         watch, began = Watch(), time.monotonic()
         found = run_missing(vehicle, cases(count), store, None, progress, "cases", drive)
         took, spent = time.monotonic() - began, watch.end()
         size = sum(path.stat().st_size for path in Path(folder).iterdir())
-    with ProcessPoolExecutor(CPU_COUNT, initializer=physics, initargs=(vehicle, first)) as bare:
-        alone += bare.map(physics, repeat(vehicle), after)
+    alone += on_all_cores(vehicle, first, after)
     assert len(found) == count and all(result.status == case.GOOD for result in found.values())
     print(f"{count} cases of {DURATION:g} s, {machine()}")
     print(f"a case: {spent / count:.3f} s of processor, its physics {mean(alone):.3f} s,"

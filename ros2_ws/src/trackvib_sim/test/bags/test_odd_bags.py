@@ -148,7 +148,7 @@ def test_numbers_beyond_all_measure_are_refused(tmp_path):
     bag.close()
     shutil.move(tmp_path / "bag" / "told" / "told_0.mcap", tmp_path / "bag" / "bag_1.mcap")
     (tmp_path / "bag" / "metadata.yaml").unlink()  # which lists the first file alone
-    with pytest.raises(BagError, match="bag' cannot be read: .*too (large|big)"):
+    with pytest.raises(BagError, match="bag' cannot be read: .*too large"):
         read_recording(tmp_path / "bag")
 
 

@@ -90,7 +90,8 @@ class TopicContents:
         if "silent_periods" in values:
             stamp = message.header.stamp
             answers = sum(int(values.get(outcome, 0)) for outcome in _ANSWERS)
-            self._loop_counts.extend((stamp.sec * NANO + stamp.nanosec, int(values["silent_periods"]), answers))
+            row = stamp.sec * NANO + stamp.nanosec, int(values["silent_periods"]), answers
+            self._loop_counts.frombytes(np.array(row, np.int64))
 
     def recording(self, path, **whole):
         """Return it all; `whole` are the items of the `Recording` that are of no topic.
