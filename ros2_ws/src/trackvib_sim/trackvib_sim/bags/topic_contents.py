@@ -91,7 +91,7 @@ class TopicContents:
             stamp = message.header.stamp
             answers = sum(int(values.get(outcome, 0)) for outcome in _ANSWERS)
             row = stamp.sec * NANO + stamp.nanosec, int(values["silent_periods"]), answers
-            self._loop_counts.frombytes(np.array(row, np.int64))
+            self._loop_counts.frombytes(np.array(row, np.int64).tobytes())
 
     def recording(self, path, **whole):
         """Return it all; `whole` are the items of the `Recording` that are of no topic.
