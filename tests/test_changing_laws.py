@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.parameter import Parameter
+from trackvib_msgs.msg import CoilCurrent
 from trackvib_sim.bags.reading import read_recording
 
 from .conftest import UNHURRIED
@@ -30,6 +31,8 @@ def test_a_run_with_changes_is_replayed(start_node, observer, tmp_path):
     start_node("road_excitation")
     start_node("controller", law="skyhook", firm_current=2.5)
     simulator = start_node("simulator", wait_for_recorder=True, answer_timeout=UNHURRIED)
+    answered = set()
+    observer.node.create_subscription(CoilCurrent, "coil_current", lambda answer: answered.update(answer.current), 10)
     for time, values, accepted in (
         (1.0, {"firm_current": 3.5, "soft_current": 1.0}, True),
         (1.3, {"soft_current": 3.0, "firm_current": 2.0}, False),
@@ -40,6 +43,7 @@ def test_a_run_with_changes_is_replayed(start_node, observer, tmp_path):
         result = changed(observer, **values)
         assert result.successful is accepted, result.reason
         assert accepted or result.reason
+        observer.wait_until(lambda: answered & {1.0, 3.5})  # a loop that stands still takes both between two samples
     observer.wait_until(lambda: float(observer.values["time"]) > 3.0)
     for process in (simulator, recorder):
         process.signal(signal.SIGINT)
