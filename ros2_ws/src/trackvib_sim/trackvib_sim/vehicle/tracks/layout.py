@@ -17,6 +17,7 @@ from .sprockets import pitch_radius
 _CORNERS = 2000  # of the polygons that stand for circles; they are 1e-6 of the radius too small
 _KEPT = 64  # lines that are kept: an idler's place is sought on both sides, and again in every run of a vehicle
 _REFINEMENTS = 6  # of a pin's place on the line; each gains two digits where the line bends most
+_CLOSINGS = 3  # walks round the line; each closes it to a fiftieth of the one before
 
 
 class TrackDoesNotFit(ValueError):
@@ -105,11 +106,8 @@ def assemble_track(vehicle, side, travel, phase):
 
     The first pin lies `phase` pitches ahead of the rearmost road wheel's lowest point.
     """
-    line = _taut_line(vehicle, side, travel)
-    t = vehicle.tracks
-    arc = _walk(line, int(t.links[side]), t.pitch, phase * t.pitch)
-    # what little the chords on the arcs do not close is spread over all links
-    arc = arc[:-1] - (arc[-1] - arc[0] - line.arc[-1]) * np.arange(len(arc) - 1) / (len(arc) - 1)
+    line, t = _taut_line(vehicle, side, travel), vehicle.tracks
+    arc = _close(line, int(t.links[side]), t.pitch, phase * t.pitch)
     place = line.at(arc)
     step = 1e-4
     direction = line.at(arc + step) - line.at(arc - step)
@@ -205,6 +203,17 @@ def _walk(line, links, pitch, start):
     arc[0] = start
     _lay_pins(line.corner, line.arc, pitch, arc)
     return arc
+
+
+def _close(line, links, pitch, start):
+    """Arc lengths (n,) of pins whose straight distance is all round the same, next to the pitch.
+
+    The chords on the arcs are cut otherwise at every start, so that links of the pitch itself do not quite close.
+    """
+    for _ in range(_CLOSINGS):
+        arc = _walk(line, links, pitch, start)
+        pitch -= (arc[-1] - arc[0] - line.arc[-1]) / links
+    return arc[:-1]
 
 
 @kernel
