@@ -20,6 +20,7 @@ from rich.table import Table
 from trackvib_sim.nodes.loop_arguments import CONTROLLER, NODES, SIMULATOR, closed_loop_parameters
 from trackvib_sim.nodes.node_parameters import NodeParameters
 from trackvib_sim.nodes.processes import FOUR_PROCESSES, LoopProcesses
+from trackvib_sim.nodes.watch import Watch
 
 PROCESSES = [name for name in FOUR_PROCESSES if name != "recorder"]
 WAYS = {"as it is": {}, "priority": {"realtime_priority": 20}, "priority, core": {"realtime_priority": 20, "core": 0}}
@@ -35,8 +36,6 @@ def lateness(seconds, scheduling):
     parameters.give(CONTROLLER, wait_for_recorder=False, **scheduling)
     with LoopProcesses(PROCESSES) as processes, tempfile.TemporaryDirectory() as logs:
         processes.start(parameters, logs)
-        from trackvib_sim.nodes.watch import Watch  # imported late: ROS 2 comes after the processes have been made
-
         with Watch() as watch:
             while not processes.ended():
                 told = watch.look(LOOK)

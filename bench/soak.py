@@ -17,6 +17,7 @@ from rich.progress import Progress
 from trackvib_sim.nodes.loop_arguments import CONTROLLER, NODES, ROAD, SIMULATOR, closed_loop_parameters
 from trackvib_sim.nodes.node_parameters import NodeParameters
 from trackvib_sim.nodes.processes import FOUR_PROCESSES, LoopProcesses
+from trackvib_sim.nodes.watch import Watch
 from trackvib_sim.simulation.lockstep import OUTCOMES
 
 RATE = 1000  # Hz
@@ -26,8 +27,6 @@ PROCESSES = [name for name in FOUR_PROCESSES if name != "recorder"]
 
 def wait_for_end(processes, exchanges):
     """Show progress until a process ends; return the last that the simulator reported."""
-    from trackvib_sim.nodes.watch import Watch  # imported late: nodes are forked before ROS 2 is loaded
-
     with Watch() as watch, Progress() as progress:
         task = progress.add_task("exchanges", total=exchanges)
         while not processes.ended():

@@ -16,8 +16,10 @@ CLOSE = 1.0  # s of the history: of a whole run the curve drawn last would hide 
 
 def run_picture(prepared, lines, title, path):
     """Draw a second of the vertical of both sensors, and its PSD with `numbers.Line`s of known cause, to a PNG file."""
-    figure = Figure(figsize=(13, 9), layout="constrained")
-    history, spectrum = figure.subplots(2, 1, height_ratios=(1.0, 1.5))
+    figure = Figure(figsize=(13, 9))
+    # margins found out by drawing everything once more would take as long as the picture itself
+    margins = {"left": 0.06, "right": 0.99, "bottom": 0.06, "top": 0.92, "hspace": 0.22}
+    history, spectrum = figure.subplots(2, 1, height_ratios=(1.0, 1.5), gridspec_kw=margins)
     figure.suptitle(title, fontsize=11, parse_math=False)  # names of roads and laws come from outside
     _history(history, prepared)
     _spectrum(spectrum, prepared, lines)

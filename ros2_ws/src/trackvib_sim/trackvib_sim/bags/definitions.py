@@ -1,6 +1,7 @@
 """Message definitions of a bag, as `node_base.field_kinds` has them; and whole messages by them."""
 
 import re
+from functools import cache
 
 from mr_mount_controller.node_base.cdr import LayoutError, check
 from mr_mount_controller.node_base.field_kinds import NUMBERS, TEXT, Fields, Repeated
@@ -20,7 +21,6 @@ def _types_from_idl(text, _):
 
 
 _PARSERS = {"ros2msg": get_types_from_msg, "ros2idl": _types_from_idl}
-_WELL_KNOWN = get_typestore(Stores.ROS2_JAZZY).fielddefs
 _DEPTH = 50  # of messages within messages; one that holds itself has no end
 
 
@@ -98,16 +98,22 @@ def _parsed(type_name, encoding, text):
         raise UnreadableDefinition(f"definition of {type_name} cannot be read: {reason}") from None
 
 
+@cache
+def _well_known():
+    """Return the types that come with ROS 2; loaded late, as most bags define all of theirs."""
+    return get_typestore(Stores.ROS2_JAZZY).fielddefs
+
+
 def _lacking(types, type_name):
     """Return the well-known types that a type is made of, itself included, and that are not among the given ones."""
     found, seen, names = {}, set(), [type_name]
     while names:
         name = names.pop()
-        if name in seen or (name not in types and name not in _WELL_KNOWN):
+        if name in seen or (name not in types and name not in _well_known()):
             continue
         seen.add(name)
         if name not in types:
-            found[name] = _WELL_KNOWN[name]
+            found[name] = _well_known()[name]
         names += [inner for _, description in (types.get(name) or found[name])[1] for inner in _named(description)]
     return found
 

@@ -38,7 +38,7 @@ def _look(namespace, found):
 
 
 def _simulator_is_there(namespace):
-    from ..nodes.watch import Watch  # imported late: ROS 2 comes after the processes have been made
+    from ..nodes.watch import Watch  # imported late: in the process that looks, as a rule
 
     with Watch(namespace) as watch:
         return watch.simulator_is_there()

@@ -70,10 +70,10 @@ def replay(bag, verify, law, controller, out):
             from ..nodes.processes import LoopProcesses
             from .own_domain import Lookout
 
-            lookout = Lookout()
-            with LoopProcesses([] if controller == EXTERNAL else ["controller"]) as stock:
-                from .replay_controller import run_replay_controller  # loads ROS 2, after the processes have been made
+            lookout = Lookout()  # it looks while the rest is loaded
+            from .replay_controller import run_replay_controller
 
+            with LoopProcesses([] if controller == EXTERNAL else ["controller"]) as stock:
                 law = None if controller == EXTERNAL else controller
                 run_replay_controller(bag, law, stock, out, lookout, console)
     except (BagError, LawError, CommandError, ValueError, OSError) as error:

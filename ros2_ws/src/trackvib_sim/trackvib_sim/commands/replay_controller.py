@@ -33,7 +33,7 @@ REPLAYED = "/replayed/current"  # topic of the new answers
 def run_replay_controller(bag, law, stock, out, lookout, console):
     """Replay into a stock controller with a law, or with None into the one that the user runs.
 
-    `stock` is its `LoopProcesses` and `lookout` a `Lookout`, both made before ROS 2 was loaded.
+    `stock` is its `LoopProcesses` and `lookout` a `Lookout`, both made before ROS 2 was started.
 
     Leaves the recorded messages with the new answers as a bag, a summary, and a picture where there is something to
     compare, in the new folder `out`.

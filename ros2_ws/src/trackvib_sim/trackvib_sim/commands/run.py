@@ -43,6 +43,7 @@ def run_loop(choosing, out, lookout, viewing=lambda _choices, _vehicle: nullcont
     """
     console = Terminal()
     choices, parameters, vehicle = choose(**choosing)
+    doubted = _doubts(vehicle)  # before the nodes are forked, which then have what this loads: the first of the kernels
     executables = ONE_PROCESS if choices.one_process else FOUR_PROCESSES
     with LoopProcesses(executables) as processes, viewing(choices, vehicle), own_domain(lookout):
         name = f"{datetime.now():%Y%m%dT%H%M%S}_{_short(choices.road)}_{_pace(choices)}"
@@ -55,7 +56,9 @@ def run_loop(choosing, out, lookout, viewing=lambda _choices, _vehicle: nullcont
                 console.print(f"warning: {note}", soft_wrap=True)
             if choices.physics_rate < (least := recommended_rate(vehicle)):
                 console.print(f"warning: --physics-rate {choices.physics_rate} is below the recommended {least} Hz")
-            interrupt = _run_nodes(processes, choices, parameters, vehicle, folder, console)
+            for doubt in doubted:
+                console.print(f"warning: {doubt}", soft_wrap=True)
+            interrupt = _run_nodes(processes, choices, parameters, folder, console)
             _measure(choices, folder, console, interrupt)
 
 
@@ -103,13 +106,11 @@ def _measure(choices, folder, console, interrupt):
         raise interrupt
 
 
-def _run_nodes(processes, choices, parameters, vehicle, folder, console):
+def _run_nodes(processes, choices, parameters, folder, console):
     """Run the nodes to the end; returns the KeyboardInterrupt that cut them short, or None."""
     interrupted = None
     try:
         processes.start(parameters, folder / "log")
-        for doubt in _doubts(vehicle):  # found while the nodes start
-            console.print(f"warning: {doubt}", soft_wrap=True)
         _follow(processes, choices, console)
     except KeyboardInterrupt as interrupt:
         interrupted = interrupt

@@ -20,7 +20,7 @@ _GRACE = 60.0  # s for a process to end by itself; on a busy machine it has seco
 class LoopProcesses:
     """Runs nodes with one parameter file for all.
 
-    Use it as a context manager around all that loads ROS 2 here: its processes are made at once (`ForkedNode`), and
+    Use it as a context manager around all that starts ROS 2 here: its processes are made at once (`ForkedNode`), and
     have ended when it is left.
     """
 
