@@ -1,4 +1,4 @@
-"""Property: a process that is asked to end before it has begun ends without a word."""
+"""Property: a forked process that is asked to end before it has begun ends without a word; none comes after ROS 2."""
 
 import signal
 import subprocess
@@ -39,3 +39,11 @@ def test_a_signal_before_the_begin_ends_it_silently(number):
     command = [sys.executable, "-c", _PROGRAM, str(int(number))]
     done = subprocess.run(command, capture_output=True, text=True)
     assert (done.stdout, done.stderr) == (f"{-number}\n", "")
+
+
+def test_a_node_is_forked_before_ros_is_started():
+    """Threads of ROS 2 would not come along."""
+    program = "import rclpy, trackvib_sim.nodes.forked_node as f; rclpy.init(); f.ForkedNode('recorder')"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[-1] == "RuntimeError: node 'recorder' must be forked before ROS 2 is started"

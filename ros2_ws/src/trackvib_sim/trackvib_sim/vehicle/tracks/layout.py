@@ -32,27 +32,27 @@ def fit_idler(vehicle, side):
     TrackDoesNotFit
         There is no such travel.
     """
-    limit, outwards = vehicle.tensioners.travel, -drive_end(vehicle)
-    if not _excess(vehicle, side, outwards * limit) <= 0.0 <= _excess(vehicle, side, -outwards * limit):
+    limit, outwards, excess = vehicle.tensioners.travel, -drive_end(vehicle), _excess(vehicle, side)
+    if not excess(outwards * limit) <= 0.0 <= excess(-outwards * limit):
         t, (fewest, most) = vehicle.tracks, room_for_links(vehicle, side)
         raise TrackDoesNotFit(
             f"tracks.links x tracks.pitch is {t.links[side] * t.pitch:.3f} m on the {SIDE_NAMES[side]}, must be "
             f"{fewest * t.pitch:.3f} to {most * t.pitch:.3f} m to fit round the running gear within the "
             f"tensioners.travel of {limit:g} m"
         )
-    return outwards * brentq(lambda travel: _excess(vehicle, side, outwards * travel), -limit, limit, xtol=1e-9)
+    return outwards * brentq(lambda travel: excess(outwards * travel), -limit, limit, xtol=1e-9)
 
 
 def room_for_links(vehicle, side):
     """Return how many links go round a side's running gear with its tensioner all in and all out, no whole numbers."""
-    limit, t = vehicle.tensioners.travel, vehicle.tracks
-    return sorted(t.links[side] - _excess(vehicle, side, travel) / t.pitch for travel in (-limit, limit))
+    limit, t, excess = vehicle.tensioners.travel, vehicle.tracks, _excess(vehicle, side)
+    return sorted(t.links[side] - excess(travel) / t.pitch for travel in (-limit, limit))
 
 
-def _excess(vehicle, side, travel):
-    """How much longer a side's links, all at pretension, are than the taut line [m]."""
-    t = vehicle.tracks
-    return _excess_round(_running_gear(vehicle, side, travel), int(t.links[side]), t.pitch)
+def _excess(vehicle, side):
+    """Return how much longer a side's links, all at pretension, are than the taut line [m] at a travel [m]."""
+    gear, links, pitch = _running_gear(vehicle, side), int(vehicle.tracks.links[side]), vehicle.tracks.pitch
+    return lambda travel: _excess_round(gear.at(travel), links, pitch)
 
 
 @lru_cache(maxsize=_KEPT)
@@ -145,8 +145,14 @@ class _RunningGear(NamedTuple):
     idler: tuple
     first: tuple  # place near which the line begins
 
+    def at(self, travel):
+        """Return the same at another travel of the tensioner [m]."""
+        x, z, radius = self.idler
+        return self._replace(idler=(x + travel, z, radius))
 
-def _running_gear(vehicle, side, travel):
+
+def _running_gear(vehicle, side):
+    """Return the `_RunningGear` of a side, its tensioner in the middle."""
     v, wheels, given = vehicle, vehicle.road_wheels, sink(vehicle)
     if not given < wheels.radius:
         raise TrackDoesNotFit(
@@ -160,11 +166,11 @@ def _running_gear(vehicle, side, travel):
         *((x, z, rollers.radius) for x, z in (zip(rollers.x, rollers.z, strict=True) if rollers else ())),
         (v.sprockets.x, v.sprockets.z, pitch_radius(v)),
     )
-    return _RunningGear(in_place, (v.idlers.x + travel, v.idlers.z, _idler_circle(v)), (min(wheel_x), given))
+    return _RunningGear(in_place, (v.idlers.x, v.idlers.z, _idler_circle(v)), (min(wheel_x), given))
 
 
 def _taut_line(vehicle, side, travel):
-    return _line_round(_running_gear(vehicle, side, travel))
+    return _line_round(_running_gear(vehicle, side).at(travel))
 
 
 @lru_cache(maxsize=_KEPT)
