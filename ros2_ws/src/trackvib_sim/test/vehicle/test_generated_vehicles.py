@@ -50,13 +50,14 @@ def test_it_stands_and_its_loads_are_the_weight(moved, added, vehicle):
 @FEW
 @given(vehicle=vehicles(), phase=st.floats(0.0, 1.0))
 def test_tracks_close(vehicle, phase):
-    """Every link of each side spans one pitch, that from the last pin to the first among them."""
+    """Every link of each side spans one pitch, that from the last pin to the first among them; all are of one length."""
     travel = standing(vehicle).tracks.tensioner.fitted
     for side in SIDES:
         place, _ = assemble_track(vehicle, side, travel[side], phase)
         assert len(place) == vehicle.tracks.links[side]
         length = np.linalg.norm(np.roll(place, -1, axis=0) - place, axis=1)
         assert_allclose(length, vehicle.tracks.pitch, rtol=0, atol=2e-5)
+        assert np.ptp(length) < 1e-6
 
 
 @FEW

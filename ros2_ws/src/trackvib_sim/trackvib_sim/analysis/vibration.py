@@ -1,5 +1,7 @@
 """Vibration measures of sampled accelerations."""
 
+from functools import lru_cache
+
 import numpy as np
 from scipy import fft, signal
 
@@ -19,12 +21,18 @@ def band_limited(acceleration, rate, highest=None):
     Second-order Butterworth high-pass, run forwards and backwards. The upper end of the band is the Nyquist frequency,
     or `highest` [Hz] by a low-pass of eighth order, likewise.
     """
-    sections = signal.butter(2, LOWEST, "highpass", fs=rate, output="sos")
-    if highest is not None:
-        sections = np.vstack((sections, signal.butter(8, highest, fs=rate, output="sos")))
     # mirrored at the ends: an odd continuation would turn about the last value, which is mostly vibration
     ends = min(len(acceleration) - 1, round(2.0 * rate / LOWEST))
-    return signal.sosfiltfilt(sections, acceleration, axis=0, padtype="even", padlen=ends)
+    return signal.sosfiltfilt(_band_filter(rate, highest), acceleration, axis=0, padtype="even", padlen=ends)
+
+
+@lru_cache(maxsize=16)
+def _band_filter(rate, highest):
+    """Return the sections (n, 6) of a band's filter; to design it takes longer than to filter a second."""
+    sections = signal.butter(2, LOWEST, "highpass", fs=rate, output="sos")
+    if highest is None:
+        return sections
+    return np.vstack((sections, signal.butter(8, highest, fs=rate, output="sos")))
 
 
 def through(transfer, samples, rate, memory):

@@ -50,7 +50,7 @@ def room_for_links(vehicle, side):
 
 
 def _excess(vehicle, side):
-    """Return how much longer a side's links, all at pretension, are than the taut line [m] at a travel [m]."""
+    """Return a function of the travel [m]: how much longer a side's links at pretension are than the taut line [m]."""
     gear, links, pitch = _running_gear(vehicle, side), int(vehicle.tracks.links[side]), vehicle.tracks.pitch
     return lambda travel: _excess_round(gear.at(travel), links, pitch)
 
