@@ -50,7 +50,7 @@ def test_it_stands_and_its_loads_are_the_weight(moved, added, vehicle):
 @FEW
 @given(vehicle=vehicles(), phase=st.floats(0.0, 1.0))
 def test_tracks_close(vehicle, phase):
-    """Every link of each side spans one pitch, that from the last pin to the first among them; all are of one length."""
+    """Every link of each side spans one pitch, that from the last pin to the first among them, and all the same."""
     travel = standing(vehicle).tracks.tensioner.fitted
     for side in SIDES:
         place, _ = assemble_track(vehicle, side, travel[side], phase)
