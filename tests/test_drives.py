@@ -1,5 +1,7 @@
 """Drive files and commands in the loop of real nodes: kept, recorded, replayed to the bit, refused where they must."""
 
+import json
+
 import numpy as np
 import pytest
 from geometry_msgs.msg import TwistStamped
@@ -42,6 +44,8 @@ def test_a_drive_is_kept_recorded_and_replayed(start_cli, tmp_path, drive_file):
     recording = read_recording(tmp_path / "run" / "bag")
     drive = recording.drive
     assert recording.drive_file == DRIVE
+    told = json.loads((tmp_path / "run" / "summary.json").read_text())["run"]
+    assert told["drive"] == str(drive_file) and told["speed"] is None
     wanted = arrival_time(parse_drive(DRIVE, 0.0, "drive"), drive.distance[-1])
     assert len(drive.stamp) == 621 and wanted == pytest.approx(6.2, abs=0.1)
     assert drive.curvature.max() == pytest.approx(0.04, rel=0.01) and np.abs(drive.offset).max() < 1.0

@@ -84,8 +84,16 @@ class Description(ProgressColumn):
         return Text(readable(task.description))
 
 
+def progress_on(console, count=None, **options):
+    """Return a display of how far tasks have come: in the column `count`, or as a share.
+
+    Options as of `rich.progress.Progress`.
+    """
+    columns = (Description(), BarColumn(), count or TaskProgressColumn(), TimeRemainingColumn())
+    return Progress(*columns, console=console, **options)
+
+
 def followed(items, description, console, total=None):
     """Iterate over `items`, of which there are `total`, with a bar that goes when they are done; only in a terminal."""
-    columns = (Description(), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
+    with progress_on(console, transient=True, disable=not console.is_terminal) as progress:
         yield from progress.track(items, total, description=description)

@@ -85,7 +85,7 @@ def test_sensors_are_those_of_an_inertial_navigator(simulation, rough, easy_teet
     force and attitude change within a step is left, below 1e-5 rad and 5e-3 m/s within a second.
     """
     wide = {
-        sensor.name: SensorParameters.model_construct(body=sensor.body, place=sensor.place, bandwidth=1e6)
+        sensor.name: SensorParameters.model_construct(body=sensor.body, place=list(sensor.place), bandwidth=1e6)
         for sensor in sensors_of(easy_teeth)
     }
     rates = Rates(physics=10_000, control=10_000)

@@ -14,7 +14,7 @@ from trackvib_sim.vehicle.sensors import Instrument, sensors_of
 pytestmark = pytest.mark.analytic
 
 ROAD = Iso8608Road("E", 2, 8.0, 8.0)
-SEAT, GUN = (0.0, 0.0, 0.5), (1.0, 0.0, 0.0)
+SEAT, GUN = [0.0, 0.0, 0.5], [1.0, 0.0, 0.0]
 
 
 @pytest.fixture(scope="module")
@@ -112,8 +112,8 @@ def test_instruments_have_their_errors(with_sensors, measured, drive):
     """Bias and noise are added, range cuts, and all is rounded to the resolution; the other sensors stay."""
     ideal, _ = followed(measured(), drive, 400)
     errors = {
-        "bias": (0.5, -0.2, 0.0), "noise": 0.01, "range": 200.0, "resolution": 0.04,
-        "rate_noise": 0.001, "rate_bias": (0.0, 0.0, 0.1),
+        "bias": [0.5, -0.2, 0.0], "noise": 0.01, "range": 200.0, "resolution": 0.04,
+        "rate_noise": 0.001, "rate_bias": [0.0, 0.0, 0.1],
     }  # fmt: skip
     found, _ = followed(measured(gun=errors, seat={"range": 9.5}), drive, 400)
     for one, other in zip(ideal, found, strict=True):

@@ -6,7 +6,6 @@ from math import isnan
 from os.path import realpath
 from pathlib import Path
 
-from rich.progress import BarColumn, Progress, TaskProgressColumn, TimeRemainingColumn
 from rich.table import Table
 
 from ..analysis.analyse import analyse
@@ -21,7 +20,7 @@ from ..analysis.report.report_data import build_report_data
 from ..bags.files import bag_files
 from ..bags.reading import read_recording
 from ..bags.sources import is_csv
-from ..console import Description, Terminal
+from ..console import Terminal, progress_on
 from .result_folder import CommandError, all_or_nothing
 
 
@@ -89,12 +88,6 @@ def require_different(bags):
         if files & seen:
             raise CommandError(f"recording {bag!r} is given twice")
         seen |= files
-
-
-def progress_on(console):
-    """Return a display of how far reading and measuring have come."""
-    columns = (Description(), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
-    return Progress(*columns, console=console)
 
 
 def _reporter(progress, description):

@@ -1,12 +1,11 @@
 """What `trackvib bag` does: shows what is in a bag, and completes one that was cut short or damaged."""
 
 from mr_mount_controller.node_base.plain_text import shortened
-from rich.progress import Progress
 from rich.table import Table
 
 from ..bags.contents import contents
 from ..bags.repair import NO_MCAP, repair
-from ..console import Terminal
+from ..console import Terminal, progress_on
 from ..numerics.units import NANO
 
 _MOST_DAMAGE = 10  # places that are told
@@ -35,7 +34,7 @@ def run_info(path):
 def run_repair(path):
     """Repair a bag and print what was done; raises `BagError`."""
     console = Terminal()
-    with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:
+    with progress_on(console, transient=True, disable=not console.is_terminal) as progress:
         task = progress.add_task("repairing")
         done = repair(path, lambda read, size: progress.update(task, completed=read, total=size))
     for file in done.files:

@@ -11,8 +11,8 @@ from ..analysis.report.page import write_report
 from ..analysis.report.ratio_section import ratio_section, ratio_table
 from ..bags.reading import HEADER_TIME
 from ..bags.sources import Sources
-from ..console import Terminal
-from .analyze import measure, new_table, progress_on, read, require_different
+from ..console import Terminal, progress_on
+from .analyze import measure, new_table, read, require_different
 from .result_folder import CommandError, all_or_nothing
 
 

@@ -8,11 +8,11 @@ from pathlib import Path
 
 from mr_mount_controller.node_base.endings import REFUSED
 from mr_mount_controller.node_base.topics import CHASSIS_IMU
-from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.progress import TextColumn
 
 from ..bags.contents import contents
 from ..bags.errors import BagError
-from ..console import Description, Terminal
+from ..console import Terminal, progress_on
 from ..nodes.loop_arguments import RECORDER, SIMULATOR
 from ..nodes.processes import FOUR_PROCESSES, ONE_PROCESS, LoopProcesses
 from ..vehicle.plausibility import doubts
@@ -141,13 +141,8 @@ def _follow(processes, choices, console):
     """Show progress until a process has ended."""
     from ..nodes.watch import Watch  # imported late, as above
 
-    columns = (
-        Description(),
-        BarColumn(),
-        TextColumn("{task.completed:.1f} of {task.total:g} s, {task.fields[pace]} x real time"),
-        TimeRemainingColumn(),
-    )
-    with Watch(choices.namespace) as watch, Progress(*columns, console=console) as progress:
+    reached = TextColumn("{task.completed:.1f} of {task.total:g} s, {task.fields[pace]} x real time")
+    with Watch(choices.namespace) as watch, progress_on(console, reached) as progress:
         task = progress.add_task("starting", total=choices.duration, pace="-")
         values, over = {}, False
         while not over:

@@ -27,8 +27,8 @@ class Choices:
     vehicle: str | None  # name or file; None for the default one
     road: str  # class, or file
     road_consists_of: str  # in words
-    speed: float
-    drive: str | None  # file; then `speed` has no effect
+    speed: float | None  # None where a drive file gives it
+    drive: str | None  # file
     gears: bool
     duration: float
     law: str
@@ -43,7 +43,7 @@ class Choices:
     def title(self):
         """The run in words."""
         vehicle = f"vehicle {self.vehicle}, " if self.vehicle else ""
-        drive = f"{self.speed:g} m/s" if self.drive is None else f"drive {Path(self.drive).name}"
+        drive = f"drive {Path(self.drive).name}" if self.speed is None else f"{self.speed:g} m/s"
         name = road_in_words(self.road, self.road_consists_of)
         road = f"{name}, {drive}{' in gears' if self.gears else ''}"
         seed = "" if self.seed is None else f", seed {self.seed}"
@@ -73,19 +73,21 @@ def choose(given, files, namespace, one_process, view):
         parameters, vehicle = loop_parameters(given, files, namespace)
         own = {each.name: each.check(parameters.get(SIMULATOR, each.name, each.default)) for each in PARAMETERS}
         name = given.get("road") or str(parameters.get(ROAD, "road"))
+        drive = given.get("drive") or own["drive"] or None
         road = find_road(name, 2.0 * vehicle.road_wheels.y)
         choices = Choices(
             vehicle=given.get("vehicle") or own["vehicle_file"] or None,
             road=name,
             road_consists_of=composition(road),
-            drive=given.get("drive") or own["drive"] or None,
+            speed=own["speed"] if drive is None else None,
+            drive=drive,
             law=str(parameters.get(CONTROLLER, "law")),
             seed=parameters.get(ROAD, "seed") if name in CLASSES else None,
             one_process=one_process,
             namespace=parameters.namespace,
             view=view,
             physics_rate=physics_rate(vehicle, own),
-            **{name: own[name] for name in ("speed", "gears", "duration", "measure_rate")},
+            **{name: own[name] for name in ("gears", "duration", "measure_rate")},
         )
         _make_law(choices.law, parameters)
         settling = _settling(choices, road.begins)

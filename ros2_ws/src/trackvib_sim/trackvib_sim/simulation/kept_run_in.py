@@ -10,6 +10,7 @@ from os import environ
 from pathlib import Path
 from tempfile import NamedTemporaryFile
 
+import numba
 import numpy as np
 from llvmlite.binding import get_host_cpu_features, get_host_cpu_name
 
@@ -39,8 +40,9 @@ def _key(vehicle, system, settings):
     digest = sha256(vehicle.model_dump_json().encode())
     for leaf in _leaves(system):
         digest.update(leaf.tobytes() if isinstance(leaf, np.ndarray) else repr(leaf).encode())
+    target = numba.config.CPU_NAME, get_host_cpu_name(), get_host_cpu_features().flatten()
     told = (settings.operation.track_phase, settings.passive_current, fresh.DURATION)
-    digest.update(repr((*told, get_host_cpu_name(), get_host_cpu_features().flatten())).encode())
+    digest.update(repr((*told, *target)).encode())
     return digest.hexdigest()
 
 

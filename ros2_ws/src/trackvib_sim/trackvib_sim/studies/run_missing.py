@@ -1,8 +1,8 @@
 """All cases of a study: those that are in its store already, and the others done on many cores."""
 
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
+from rich.progress import MofNCompleteColumn
 
-from ..console import Description
+from ..console import progress_on
 from .case import drive
 from .workers import results, workers
 
@@ -30,6 +30,7 @@ def run_missing(vehicle, cases, store, scheduler, progress, description, run=dri
     found = {case: result for case in cases if (result := store.load(case)) is not None}
     missing = [case for case in cases if case not in found]
     task = progress.add_task(description, total=len(cases), completed=len(found))
+    progress.advance(task, 0)  # a task is looked at, whether it is done, where it moves on
     if missing:
         with workers(scheduler, len(missing)) as client:
             for case, result in results(client, vehicle, missing, run):
@@ -43,6 +44,5 @@ def run_shown(vehicle, cases, store, folder, console, scheduler, run=drive, desc
     """Return what `run_missing` does, with a bar on the `console`, and a line on runs in `folder` that do not count."""
     if store.foreign:
         console.print(f"{store.foreign} runs in {folder} are from another vehicle or version and are not used")
-    columns = (Description(), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=console) as progress:
+    with progress_on(console, MofNCompleteColumn()) as progress:
         return run_missing(vehicle, cases, store, scheduler, progress, description, run)

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import yaml
 from dask.system import CPU_COUNT
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
+from rich.progress import MofNCompleteColumn
 
-from ...console import Description, Terminal
+from ...console import Terminal, progress_on
 from ...data import calibration_plan_file, find_vehicle, paper_table_file
 from ...new_files import new_file
 from ...vehicle.vehicle_file import parse_vehicle, read_vehicle
@@ -58,8 +58,7 @@ def run_calibrate(plan_file, vehicle_file, without, generations, scheduler, out)
     history, around = (
         History(folder / name, key, plan.items, list(paper)) for name in ("history.csv", "sensitivity_runs.csv")
     )
-    columns = (Description(), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with workers(scheduler, CPU_COUNT) as client, Progress(*columns, console=console) as progress:
+    with workers(scheduler, CPU_COUNT) as client, progress_on(console, MofNCompleteColumn()) as progress:
         runs = cases(paper, plan.seeds) + level_cases(paper)
         candidates = Candidates(client, text, plan, runs, paper)
         start = plan.values(plan.shares([parameter.of(vehicle) for parameter in plan.parameters]))

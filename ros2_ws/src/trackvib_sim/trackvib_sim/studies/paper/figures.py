@@ -3,10 +3,9 @@
 from pathlib import Path
 
 import numpy as np
-from rich.progress import BarColumn, Progress, TaskProgressColumn, TimeRemainingColumn
 
 from ...analysis.numbers import SENSORS
-from ...console import Description, Terminal
+from ...console import Terminal, progress_on
 from ...data import find_vehicle
 from ...new_files import new_file
 from ...road.iso8608 import FADE, Iso8608Road
@@ -46,8 +45,7 @@ def run_figures(vehicle, scheduler, out):
     folder, console = Path(out), Terminal()
     store = CaseStore(folder / "cases", text)
     cases = [Case(road_class, speed, SEED, TRACK_PHASE) for road_class in CLASSES for speed in SPEEDS]
-    columns = (Description(), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=console) as progress:
+    with progress_on(console) as progress:
         found = run_missing(vehicle, cases, store, scheduler, progress, "all classes and speeds")
         tasks = {solver: progress.add_task(f"{case_in_words(SHOWN)}, {solver}", total=1.0) for solver in SOLVERS}
         try:
