@@ -61,7 +61,7 @@ def main():
         shutil.rmtree(tests, ignore_errors=True)
     for object_file in ROOT.glob(".trackvib/workspace/build/**/*.o"):
         object_file.unlink()
-    # numba writes where it reads; so whoever a container runs as can compile for another kind of processor
+    # numba writes where it reads; so whoever a container runs as can compile for a processor of another level
     subprocess.run(["chmod", "-R", "a+rwX", ROOT / ".trackvib" / "kernels"], check=True)
 
 
