@@ -5,7 +5,6 @@ import json
 import os
 from pathlib import Path
 
-from environment import processor
 from environment.own_folder import own_folder
 from environment.places import Places
 from environment.ros import Ros
@@ -54,8 +53,6 @@ def before_workspace(places: Places, ros: Ros, environ) -> dict:
     env["VIRTUAL_ENV"] = str(places.venv)
     env["PYTHONNOUSERSITE"] = "1"  # packages under ~/.local are neither pinned nor known
     env["HOME"] = env.get("HOME") or _home(places)
-    for name, value in processor.variables().items():
-        env.setdefault(name, value)
     env.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     # The shared memory of a process that was killed can block every later one; not in force with LOCALHOST, see docs.
     env.setdefault("FASTDDS_BUILTIN_TRANSPORTS", "UDPv4")

@@ -1,13 +1,13 @@
 """What commands print and draw, compared with what documents show, but for what is of the moment."""
 
-import os
 import re
 
 import numpy as np
 from matplotlib.image import imread
+from trackvib_sim.numerics.processor import target
 
-# Documents are renewed on processors of this level, all of which give the same bits (`environment/processor.py`).
-SAME_BITS = os.environ.get("NUMBA_CPU_NAME") == "x86-64-v4"
+# Documents are renewed on processors of this level, all of which give the same bits (`numerics/processor.py`).
+SAME_BITS = target() == "x86-64-v4"
 SCATTER_OF_WORK = 0.2  # of the largest number in the account
 # lines of progress, pace and places
 OF_THE_MOMENT = ("finished", "runs ", "reading ", "measuring ", "pace:", "written to", "picture")

@@ -13,12 +13,12 @@ from .printed_words import SAME_BITS, alike, compared, elements
 
 # By what part a number may differ on a processor of another level than that of the documents, beside one unit of its
 # last digit; on one of the same level none may. Contacts of the tracks amplify rounding. With a current changed by
-# 1e-12 levels differ by up to 4 %, the work on the mounts by 16 % and what they store by as much of that work, and
-# 11.5 % of the elements of a run's picture, which shows one second of it. With the stiffness of teeth changed by
-# 1e-12, three times, single lines and third octaves of the M113 differ by up to 18 %; which side of its goal a number
-# near it falls on is then a matter of rounding, too. Driving forces then differ by 1.5 %, and the heat of those parts
-# that are named by up to 9 %. Over obstacles, with the current changed by 1e-12 three times, peaks below 10 Hz differ
-# by up to 8 %.
+# 1e-12 levels differ by up to 4 %, the work on the mounts by 16 % and what they store by as much of that work, and 11.5
+# % of the elements of a run's picture, which shows one second of it. With the stiffness of teeth changed by 1e-12,
+# three times, single lines and third octaves of the M113 differ by up to 18 %; which side of its goal a number near it
+# falls on is then a matter of rounding, too. Driving forces then differ by 1.5 %, between compilations by up to 7 %,
+# and the heat of those parts that are named by up to 9 %. Over obstacles, with the current changed by 1e-12 three
+# times, peaks below 10 Hz differ by up to 8 %.
 SCATTER = {
     "./trackvib run": 0.1,
     "./trackvib study table1": 0.1,

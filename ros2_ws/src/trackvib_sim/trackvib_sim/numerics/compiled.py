@@ -9,6 +9,8 @@ from types import FunctionType
 import numba
 from numba.core.registry import CPUDispatcher
 
+from .processor import target
+
 _PACKAGE = Path(__file__).parents[1]
 
 
@@ -33,6 +35,9 @@ def _forget_stale_kernels():
 
 if not numba.config.CACHE_DIR:
     _forget_stale_kernels()
+if target() is not None:
+    numba.config.CPU_NAME = target()
+    numba.config.CPU_FEATURES = numba.config.CPU_FEATURES or ""  # those of that name alone
 
 _OPTIONS = dict(nogil=True, error_model="numpy", no_cfunc_wrapper=True, _nrt=False)
 

@@ -37,7 +37,7 @@ def run_missing(vehicle, cases, store, scheduler, progress, description, run=dri
                 store.save(case, result)
                 found[case] = result
                 progress.advance(task)
-    return found
+    return {case: found[case] for case in cases}  # not in the order in which workers have finished them
 
 
 def run_shown(vehicle, cases, store, folder, console, scheduler, run=drive, description="runs"):

@@ -12,6 +12,8 @@ from ..rui.state import rest_state
 from .body_tree import GRAVITY, bodies_on_hinges, build_body_table
 from .mounts import KN_PER_MM, mount_turn
 
+_DECIMALS = 6  # of a load in N
+
 
 def loads_at_rest(vehicle):
     """Return the load (3,) [N] on its body of each mount by name, in the mount's axes."""
@@ -39,7 +41,8 @@ def _shares(vehicle, body, loads):
     stiffness = {name: _stiffness(vehicle, held[name]) for name in open_ones}
     total = sum(motions[name] @ stiffness[name] @ motions[name].T for name in open_ones)
     sink = np.linalg.lstsq(total, work, rcond=1e-12)[0]
-    return {name: -stiffness[name] @ motions[name].T @ sink for name in open_ones}
+    # linear algebra chooses its way by processor, and the last bits with it
+    return {name: np.round(-stiffness[name] @ motions[name].T @ sink, _DECIMALS) for name in open_ones}
 
 
 def _ways(section):
