@@ -24,12 +24,12 @@ pytestmark = pytest.mark.analytic
 )
 def test_level_is_the_highest_that_is_whole(flags, level):
     """One missing instruction set makes it the level below."""
-    assert level_of(f"processor\t: 0\nmodel name\t: avx512f\nflags\t\t: {flags}\nbugs\t\t:\n") == level
+    assert level_of(["processor\t: 0\n", "model name\t: avx512f\n", f"flags\t\t: {flags}\n", "bugs\t\t:\n"]) == level
 
 
 def test_no_flags_no_level():
     """Other processors have none."""
-    assert level_of("processor\t: 0\nFeatures\t: fp asimd\n") is None
+    assert level_of(["processor\t: 0\n", "Features\t: fp asimd\n"]) is None
 
 
 def test_kernels_are_compiled_for_it():

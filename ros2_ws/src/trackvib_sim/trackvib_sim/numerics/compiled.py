@@ -35,8 +35,8 @@ def _forget_stale_kernels():
 
 if not numba.config.CACHE_DIR:
     _forget_stale_kernels()
-if target() is not None:
-    numba.config.CPU_NAME = target()
+if (_name := target()) is not None:
+    numba.config.CPU_NAME = _name
     numba.config.CPU_FEATURES = numba.config.CPU_FEATURES or ""  # those of that name alone
 
 _OPTIONS = dict(nogil=True, error_model="numpy", no_cfunc_wrapper=True, _nrt=False)

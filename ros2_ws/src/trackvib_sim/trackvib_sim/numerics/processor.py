@@ -5,19 +5,17 @@ Wider vectors add in another order, and the impacts of the tracks amplify what t
 
 import os
 import platform
-import re
-from pathlib import Path
+from contextlib import suppress
 
 # Names of the compiler, and what /proc/cpuinfo calls that which a level has beyond those below it.
 _V3 = {"avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "abm", "movbe"}
 _LEVELS = {"x86-64-v4": _V3 | {"avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl"}, "x86-64-v3": _V3}
-_CPU_INFO = Path("/proc/cpuinfo")
 
 
-def level_of(cpu_info: str):
-    """Return the highest level that a processor has by the text of its /proc/cpuinfo; None below the third."""
-    flags = re.search(r"^flags\s*:(.*)$", cpu_info, re.MULTILINE)
-    has = set(flags[1].split()) if flags else set()
+def level_of(cpu_info):
+    """Return the highest level that a processor has by the lines of its /proc/cpuinfo; None below the third."""
+    flags = next((line for line in cpu_info if line.startswith("flags")), "")  # of the first of many cores
+    has = set(flags.partition(":")[2].split())
     return next((name for name, needed in _LEVELS.items() if needed <= has), None)
 
 
@@ -28,6 +26,7 @@ def target():
     """
     if chosen := os.environ.get("NUMBA_CPU_NAME"):
         return chosen
-    if platform.machine() != "x86_64" or not _CPU_INFO.exists():
-        return None
-    return level_of(_CPU_INFO.read_text())
+    if platform.machine() == "x86_64":
+        with suppress(OSError), open("/proc/cpuinfo", encoding="utf-8") as lines:
+            return level_of(lines)
+    return None
