@@ -104,6 +104,17 @@ def test_one_flipped_bit_in_a_head_costs_no_message():
                     assert (messages(bag), file.lost) == (whole, 0)
 
 
+@pytest.mark.slow(reason="every byte before the chunks")
+def test_lengths_that_no_file_has_cost_no_message(tmp_path):
+    """The top bit of every byte of header and attachment, those of lengths of eight bytes among them."""
+    data = sound_file()
+    chunks = chunks_of(data)
+    whole = Counter(each for chunk in chunks for each in chunk.messages)
+    for place in range(MAGIC_SIZE, chunks[0].start):
+        (tmp_path / NAME).write_bytes(damaged(data, [(place, 7)], len(data)))
+        assert messages(tmp_path) == whole, place
+
+
 def test_lost_messages_are_counted(tmp_path):
     """By the index, which still tells how many there were."""
     data, chunk = sound_file(), chunks_of(sound_file())[2]

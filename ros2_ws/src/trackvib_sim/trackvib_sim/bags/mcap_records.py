@@ -51,7 +51,7 @@ def parse(opcode, content):
         if not is_message_index(content):
             raise ValueError("a message index whose length is wrong")
         return None
-    stream = _Exact(BytesIO(content))
+    stream = _Exact(content)
     record = _KINDS[opcode].read(stream)
     if stream.count != len(content):
         raise ValueError(f"a record of {len(content)} bytes of which {stream.count} are used")
@@ -71,10 +71,13 @@ def is_message_index(content):
 
 
 class _Exact(ReadDataStream):
-    """mcap's own takes what there is."""
+    """mcap's own takes what there is, and cannot be asked for lengths that no file has."""
+
+    def __init__(self, content):
+        super().__init__(BytesIO(content))
+        self._size = len(content)
 
     def read(self, length):
-        data = super().read(length)
-        if len(data) != length:
+        if length > self._size - self.count:
             raise EndOfFile
-        return data
+        return super().read(length)
