@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from scipy import signal
 from trackvib_sim.data import find_vehicle
-from trackvib_sim.numerics.processor import target
 from trackvib_sim.road.iso8608 import SPACING
 from trackvib_sim.simulation.settings import RunSettings
 from trackvib_sim.simulation.simulation import Simulation
@@ -71,15 +70,6 @@ def test_reference_has_the_levels_that_it_was_handed_over_with(road, speed, high
     assert reference.vertical.mean() == pytest.approx(9.81, abs=0.02)
 
 
-def agrees(row):
-    """Whether its goal is reached: by the figures of docs/m113.md, or within two standard errors where bits differ.
-
-    The page is one throw, and its figures are those of one level of processors.
-    """
-    error = 0.0 if target() == "x86-64-v4" else 2.0 * row.scatter / np.sqrt(PHASES[row.speed])
-    return any(row._replace(ours=row.ours + shift).agrees for shift in (-error, error))
-
-
 @pytest.mark.slow(reason="whole drives")
 @pytest.mark.cross_engine
 def test_rough_road_agrees(m113, rough):
@@ -91,12 +81,12 @@ def test_rough_road_agrees(m113, rough):
     assert all(result.status == GOOD for result in rough.values())
     rows = {(row.quantity, row.speed): row for row in table_rows(rough, m113)}
     for speed in PHASES:
-        assert agrees(rows[band_name(*HIGH), speed])
-        assert all(agrees(rows[octave_name(centre), speed]) for centre in THIRD_OCTAVES)
+        assert rows[band_name(*HIGH), speed].agrees
+        assert all(rows[octave_name(centre), speed].agrees for centre in THIRD_OCTAVES)
         assert rows[band_name(*ROAD_BORNE), speed].factor == pytest.approx(1.0, abs=0.25)
         assert max(rows[LINES_SHARE, speed].ours, rows[LINES_SHARE, speed].theirs) < 0.15
         assert rows[ROAD_SHARE, speed].ours > rows[ROAD_SHARE, speed].theirs
-    assert all(agrees(rows[line_name(k), 5]) for k in (1, 2, 3))
+    assert all(rows[line_name(k), 5].agrees for k in (1, 2, 3))
     assert rows[CORRELATION, 10].ours > 0.7
     left, right = (rows[name, 5].ours for name in TENSIONERS)
     assert left == pytest.approx(26e3, rel=0.1)
