@@ -5,13 +5,16 @@ A change in this file makes every stage of the set-up anew: its own text is amon
 
 import os
 import re
+from collections import defaultdict
+from contextlib import suppress
 
 from environment import SetupError, network
 from environment.extras import Extra
 from environment.places import Places, Setup
-from environment.steps import Task
+from environment.steps import Task, hash_of
 
 _PROBE = 4  # s that the first package's server may be silent
+_LARGE = 100_000  # bytes; what smaller files have in common is not worth a look
 
 # What the kernels are compiled with, and what that needs in turn: installed first, for compiling takes longest.
 _COMPILED_WITH = (
@@ -38,6 +41,7 @@ def make_packages(setup: Setup, task: Task) -> None:
     # empy comes as source: it is built with the lock's setuptools, which is there, not with what pip would fetch.
     task.run([*_pip(setup.places), "--no-build-isolation", "-r", str(setup.lock_file)], _for_pip())
     _compile_modules(setup, task)
+    _share_equal_files(setup)
 
 
 def make_extra(setup: Setup, extra: Extra, task: Task) -> None:
@@ -48,6 +52,7 @@ def make_extra(setup: Setup, extra: Extra, task: Task) -> None:
         raise SetupError(f"{extra.what} needs Python {wanted} or later, this environment has {python.version}")
     task.run([*_pip(places), "--only-binary=:all:", "-r", str(extra.lock(places))], _for_pip())
     _compile_modules(setup, task)
+    _share_equal_files(setup)
 
 
 def _pip(places: Places) -> list:
@@ -79,3 +84,17 @@ def _compile_modules(setup: Setup, task: Task) -> None:
     tests = f"{re.escape(str(folder))}.*/tests?/"
     program = "import compileall, re, sys; compileall.compile_dir(sys.argv[1], quiet=2, rx=re.compile(sys.argv[2]))"
     task.run([str(setup.places.python), "-I", "-c", program, str(folder), tests], _for_pip())
+
+
+def _share_equal_files(setup: Setup) -> None:
+    """Keep one copy of what packages bring under several names; a wheel has no links, so it has copies instead."""
+    equal = defaultdict(list)
+    for path in setup.places.venv.rglob("*"):
+        if path.is_file() and not path.is_symlink() and path.stat().st_size >= _LARGE:
+            equal[hash_of(path), path.stat().st_mode].append(path)
+    for first, *others in equal.values():
+        for other in others:
+            link = other.with_name(f"{other.name}.link")
+            with suppress(OSError):  # not every file system has links
+                link.hardlink_to(first)
+                link.replace(other)

@@ -143,7 +143,6 @@ def test_dropped_samples(start, start_node, observer):
     def count(name):
         return int(observer.values.get(name, 0))
 
-    # where relay and controller find each other late the run begins with silence
     observer.wait_until(lambda: count("silent_periods") >= max(4, apart - 1) and count("accepted") > 0)
     told = observer.values
     periods = round(1000.0 * float(told["time"]))

@@ -22,6 +22,9 @@ def main():
 
     def relay(data):
         nonlocal passed
+        # whoever gave it may know the relay before the relay knows who shall get it
+        while not publisher.get_subscription_count():
+            time.sleep(0.01)
         passed += 1
         if passed % every == 0:
             if fault == "drop":

@@ -10,12 +10,14 @@ PROGRAM = """
 import hashlib, os
 import numpy as np
 import trackvib_sim as tv
+from trackvib_sim import Simulation, run_open_loop
 
-os.environ.pop("NUMBA_CACHE_DIR", None)  # else the run-in of another call would be taken
+# With the kernels found, but not yet the run-in, which would be that of another call.
+os.environ.pop("NUMBA_CACHE_DIR", None)
 for name in ("tao2025", "leopard1"):
     vehicle, _ = tv.read_vehicle(tv.find_vehicle(name))
     settings = tv.RunSettings(tv.Operation(10.0, 1650.0, False), tv.Rates(), passive_current=1.0)
-    run = tv.run_open_loop(tv.Simulation(vehicle, settings), tv.Iso8608Road("E", seed=1), 100)
+    run = run_open_loop(Simulation(vehicle, settings), tv.Iso8608Road("E", seed=1), 100)
     print(name, hashlib.sha256(np.ascontiguousarray(run.specific_force)).hexdigest())
 """
 
