@@ -5,7 +5,6 @@ A change in this file makes every stage of the set-up anew: its own text is amon
 
 import os
 import re
-from collections import defaultdict
 from contextlib import suppress
 
 from environment import SetupError, network
@@ -88,13 +87,13 @@ def _compile_modules(setup: Setup, task: Task) -> None:
 
 def _share_equal_files(setup: Setup) -> None:
     """Keep one copy of what packages bring under several names; a wheel has no links, so it has copies instead."""
-    equal = defaultdict(list)
-    for path in setup.places.venv.rglob("*"):
-        if path.is_file() and not path.is_symlink() and path.stat().st_size >= _LARGE:
-            equal[hash_of(path), path.stat().st_mode].append(path)
-    for first, *others in equal.values():
-        for other in others:
-            link = other.with_name(f"{other.name}.link")
+    kept = {}
+    for path in list(setup.places.venv.rglob("*")):
+        if path.is_symlink() or not path.is_file() or path.stat().st_size < _LARGE:
+            continue
+        first = kept.setdefault((hash_of(path), path.stat().st_mode), path)
+        if not first.samefile(path):  # for an extra this is done once more
+            link = path.with_name(f"{path.name}.link")
             with suppress(OSError):  # not every file system has links
                 link.hardlink_to(first)
-                link.replace(other)
+                link.replace(path)
