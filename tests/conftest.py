@@ -13,6 +13,7 @@ import rclpy
 from ament_index_python.packages import get_package_prefix
 from diagnostic_msgs.msg import DiagnosticArray
 from mr_mount_controller.node_base.shared_memory import remove_unfinished_segments
+from mr_mount_controller.node_base.taken_up import taken_up
 from rclpy.experimental import EventsExecutor
 from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import Trigger
@@ -205,11 +206,16 @@ class Observer:
         self.wait_until(lambda: values.items() <= self.values.items())
         return float(self.values["time"])
 
+    def wait_for_service(self, ready):
+        """Wait until a client just made may ask: it is taken up here, and `ready()` says that the service is there."""
+        self.wait_until(taken_up(self._node))
+        self.wait_until(ready)
+
     def client(self, name, node="simulator"):
         """Return a client of a service that is there; asked for beforehand, a later call takes no time to find it."""
         if (node, name) not in self._clients:
             self._clients[node, name] = self._node.create_client(Trigger, f"{node}/{name}")
-        self.wait_until(self._clients[node, name].service_is_ready)
+        self.wait_for_service(self._clients[node, name].service_is_ready)
         return self._clients[node, name]
 
     def call(self, name, node="simulator"):

@@ -18,7 +18,7 @@ pytestmark = [pytest.mark.system, pytest.mark.slow(reason="a loop of real proces
 def changed(observer, **values):
     """Set parameters of the controller together; returns the node's result."""
     client = observer.node.create_client(SetParametersAtomically, "controller/set_parameters_atomically")
-    observer.wait_until(client.service_is_ready)
+    observer.wait_for_service(client.service_is_ready)
     wanted = [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]
     future = client.call_async(SetParametersAtomically.Request(parameters=wanted))
     observer.wait_until(future.done)

@@ -122,7 +122,7 @@ def test_the_road_node_tells_where_its_road_begins(start_node, observer, tmp_pat
     write_csv_profile(tmp_path / "survey.csv", 0.05 * np.arange(101), np.zeros((2, 101)))
     start_node("road_excitation", road=tmp_path / road if "." in road else road)
     client = AsyncParameterClient(observer.node, "road_excitation")
-    observer.wait_until(client.services_are_ready)
+    observer.wait_for_service(client.services_are_ready)
     told = client.get_parameters(["begins"])
     observer.wait_until(told.done)
     assert told.result().values[0].double_value == begins

@@ -43,7 +43,7 @@ def call(observer):
 
     def ask(kind, name, **fields):
         client = observer.node.create_client(kind, f"simulator/{name}")
-        observer.wait_until(client.service_is_ready)
+        observer.wait_for_service(client.service_is_ready)
         future = client.call_async(kind.Request(**fields))
         observer.wait_until(future.done)
         return future.result()
@@ -113,7 +113,7 @@ def test_steps_as_an_action(simulator, call, observer):
     every = QoSProfile(depth=100)  # word, however slow this side is
     client = ActionClient(observer.node, SimulateSteps, "simulator/simulate_steps", feedback_sub_qos_profile=every)
     told = []
-    observer.wait_until(client.server_is_ready)
+    observer.wait_for_service(client.server_is_ready)
 
     def goal(steps):
         future = client.send_goal_async(

@@ -10,6 +10,7 @@ from mr_mount_controller.node_base.listener import Listener
 from mr_mount_controller.node_base.node_process import start_ros
 from mr_mount_controller.node_base.patience import Patience
 from mr_mount_controller.node_base.qos import LATCHED_QOS, LOOP_WRITER_QOS
+from mr_mount_controller.node_base.taken_up import taken_up
 from rclpy.experimental import EventsExecutor
 from rclpy.parameter import Parameter
 from rclpy.parameter_client import AsyncParameterClient
@@ -99,6 +100,7 @@ class ControllerTrial:
     def change(self, values):
         """Change parameters of the stock controller's law, by name; raises ValueError if it does not take them."""
         client = AsyncParameterClient(self._node, "controller")
+        self._patience.wait_until(taken_up(self._node))
         future = client.set_parameters_atomically([Parameter(name, value=value) for name, value in values.items()])
         if not self._patience.wait_until(future.done, _CHANGE_TIMEOUT):
             raise ValueError("the controller does not respond to a recorded change of its law's parameters")
