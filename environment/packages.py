@@ -5,6 +5,7 @@ A change in this file makes every stage of the set-up anew: its own text is amon
 
 import os
 import re
+import shutil
 from contextlib import suppress
 
 from environment import SetupError, network
@@ -39,8 +40,7 @@ def make_packages(setup: Setup, task: Task) -> None:
     """Install all that the lock has; this stage's folder only says that it is there."""
     # empy comes as source: it is built with the lock's setuptools, which is there, not with what pip would fetch.
     task.run([*_pip(setup.places), "--no-build-isolation", "-r", str(setup.lock_file)], _for_pip())
-    _compile_modules(setup, task)
-    _share_equal_files(setup)
+    _leave_what_is_used(setup)
 
 
 def make_extra(setup: Setup, extra: Extra, task: Task) -> None:
@@ -50,12 +50,14 @@ def make_extra(setup: Setup, extra: Extra, task: Task) -> None:
         wanted = ".".join(map(str, extra.python))
         raise SetupError(f"{extra.what} needs Python {wanted} or later, this environment has {python.version}")
     task.run([*_pip(places), "--only-binary=:all:", "-r", str(extra.lock(places))], _for_pip())
-    _compile_modules(setup, task)
-    _share_equal_files(setup)
+    _leave_what_is_used(setup)
 
 
 def _pip(places: Places) -> list:
-    """pip as far as the packages; a lock is complete, so nothing has to be resolved."""
+    """pip as far as the packages; a lock is complete, so nothing has to be resolved.
+
+    It compiles no module: those that are imported are a fifth of all (`stages.py`).
+    """
     # -I keeps pip from counting what lies under ~/.local
     pip = [str(places.python), "-I", "-m", "pip", "--disable-pip-version-check", "--no-input", "install"]
     return [*pip, "--no-deps", "--no-compile", "--require-hashes", "--progress-bar=off"]
@@ -77,16 +79,13 @@ def _install(setup: Setup, names: tuple, options: list, env: dict, task: Task) -
     task.run([*_pip(setup.places), *options, "-r", str(chosen)], env)
 
 
-def _compile_modules(setup: Setup, task: Task) -> None:
-    """Have Python's modules compiled, as pip would, but without the tests of the packages: a third of all."""
-    (folder,) = setup.places.venv.glob("lib/python*/site-packages")
-    tests = f"{re.escape(str(folder))}.*/tests?/"
-    program = "import compileall, re, sys; compileall.compile_dir(sys.argv[1], quiet=2, rx=re.compile(sys.argv[2]))"
-    task.run([str(setup.places.python), "-I", "-c", program, str(folder), tests], _for_pip())
+def _leave_what_is_used(setup: Setup) -> None:
+    """Remove the packages' own tests, a tenth of all; keep one copy of a large file that lies under several names.
 
-
-def _share_equal_files(setup: Setup) -> None:
-    """Keep one copy of what packages bring under several names; a wheel has no links, so it has copies instead."""
+    A wheel has no links, so it has copies instead.
+    """
+    for tests in [path for path in setup.places.venv.glob("lib/python*/site-packages/**/tests") if path.is_dir()]:
+        shutil.rmtree(tests, ignore_errors=True)  # it may lie in another one
     kept = {}
     for path in list(setup.places.venv.rglob("*")):
         if path.is_symlink() or not path.is_file() or path.stat().st_size < _LARGE:

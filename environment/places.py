@@ -23,6 +23,7 @@ class Places:
         self.packages = self.venv / "packages"
         self.python = self.venv / "bin" / "python3"
         self.workspace = self.home / "workspace"
+        self.modules = self.workspace / "modules"
         self.kernels = self.home / "kernels"
 
 

@@ -45,6 +45,8 @@ def plan(setup: Setup, extras: tuple) -> dict:
               partial(make_packages, setup), "library"),
         Stage("workspace", "building the ROS 2 packages", "about 40 s", places.workspace, workspace,
               partial(make_workspace, setup), "packages"),
+        Stage("modules", "importing all modules once", "about 5 s", places.modules, workspace,
+              partial(_make_modules, setup, kernels), "workspace"),
     ]  # fmt: skip
     before = "packages"
     for extra in extras:  # one after the other, for two of them may bring the same package
@@ -68,5 +70,14 @@ def _with_kernels(env: dict, setup: Setup, key: str) -> dict:
 def _make_kernels(setup: Setup, key: str, task: Task) -> None:
     places = setup.places
     env = activate.with_sources(activate.before_workspace(places, setup.ros, os.environ), places)
-    compile_all = [str(places.python), str(places.starter), "trackvib_sim.compile_kernels"]
-    task.run(compile_all, _with_kernels(env, setup, key))
+    _compile("trackvib_sim.compile_kernels", setup, _with_kernels(env, setup, key), task)
+
+
+def _make_modules(setup: Setup, kernels: str, task: Task) -> None:
+    _compile("trackvib_sim.compile_modules", setup, job_variables(setup, kernels), task)
+
+
+def _compile(module: str, setup: Setup, env: dict, task: Task) -> None:
+    """Run a module that compiles; Python then keeps what it has compiled of the modules itself."""
+    env.pop("PYTHONDONTWRITEBYTECODE", None)
+    task.run([str(setup.places.python), str(setup.places.starter), module], env)

@@ -56,6 +56,7 @@ def _build_variables(setup: Setup, of_ros: dict) -> dict:
     # A user's own defaults for colcon could ask for other folders or another kind of build.
     env.update(COLCON_HOME=str(places.workspace / "colcon"), COLCON_LOG_PATH=str(places.logs / "colcon"))
     env.pop("COLCON_DEFAULTS_FILE", None)
+    env.pop("PYTHONDONTWRITEBYTECODE", None)  # dozens of generators start, which import the same modules
     return env
 
 
