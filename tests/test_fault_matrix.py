@@ -154,8 +154,10 @@ def test_dropped_samples(start, start_node, observer):
 def test_delayed_answers(start, start_node, seconds, timeout, silent):
     """A delay within the timeout changes nothing; beyond it the loop holds the current until it hears an answer."""
     start_node("road_excitation")
-    start([sys.executable, CONTROLLERS / "relay.py", "CoilCurrent", "relayed", "coil_current", "delay", seconds, 200])
+    words = ("CoilCurrent", "relayed", "coil_current", "delay", seconds, 200)
+    relay = start([sys.executable, CONTROLLERS / "relay.py", *words])
     start_node("controller", *relayed("coil_current"))
+    relay.wait_for("found its source")  # to find each other may take longer than the timeout of the first answer
     simulator = start_node("simulator", duration=0.9, answer_timeout=timeout)
     assert simulator.wait() == 0, simulator.output
     counts = counted(simulator)

@@ -32,7 +32,10 @@ def main():
             time.sleep(seconds)
         publisher.publish(data)
 
-    node.create_subscription(kind, source, relay, 10, raw=True)
+    subscription = node.create_subscription(kind, source, relay, 10, raw=True)
+    while not subscription.get_publisher_count():
+        rclpy.spin_once(node, timeout_sec=0.05)
+    print("found its source", flush=True)
     rclpy.spin(node)
 
 
