@@ -56,7 +56,7 @@ def make_extra(setup: Setup, extra: Extra, task: Task) -> None:
 def _pip(places: Places) -> list:
     """pip as far as the packages; a lock is complete, so nothing has to be resolved.
 
-    It compiles no module: those that are imported are a fifth of all (`stages.py`).
+    It compiles no module: few of them are ever imported (`stages.py`).
     """
     # -I keeps pip from counting what lies under ~/.local
     pip = [str(places.python), "-I", "-m", "pip", "--disable-pip-version-check", "--no-input", "install"]
@@ -80,7 +80,7 @@ def _install(setup: Setup, names: tuple, options: list, env: dict, task: Task) -
 
 
 def _leave_what_is_used(setup: Setup) -> None:
-    """Remove the packages' own tests, a tenth of all; keep one copy of a large file that lies under several names.
+    """Remove the packages' own tests; keep one copy of a large file that lies under several names.
 
     A wheel has no links, so it has copies instead.
     """
