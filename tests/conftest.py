@@ -115,6 +115,17 @@ def env(domain):
 
 
 @pytest.fixture
+def user_module(tmp_path, env):
+    """Write a module of a user's own on the Python path of the test's processes: `user_module(name, text)`."""
+
+    def write(name, text):
+        (tmp_path / f"{name}.py").write_text(text)
+
+    env["PYTHONPATH"] = os.pathsep.join([str(tmp_path), env.get("PYTHONPATH", "")])
+    return write
+
+
+@pytest.fixture
 def processes(tmp_path):
     """The processes of a test, which end with it, and with them what they have started."""
     started = []

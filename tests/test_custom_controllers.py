@@ -1,6 +1,5 @@
 """One's own controller: the ten lines of docs/controllers.md, and one's own law on the stock node."""
 
-import os
 import re
 import sys
 from pathlib import Path
@@ -32,10 +31,9 @@ class Broken(ControlLaw):
 
 
 @pytest.fixture
-def my_laws(tmp_path, env):
+def my_laws(user_module):
     """A module with one's own laws on the Python path of the processes."""
-    (tmp_path / "my_laws.py").write_text(LAW)
-    env["PYTHONPATH"] = os.pathsep.join([str(tmp_path), env.get("PYTHONPATH", "")])
+    user_module("my_laws", LAW)
 
 
 @pytest.mark.slow(reason="a whole loop in real processes")

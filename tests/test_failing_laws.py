@@ -1,6 +1,5 @@
 """A law that fails, in each way of running: one sentence with time, file and line, and an exit code."""
 
-import os
 import re
 
 import pytest
@@ -25,10 +24,9 @@ UNMADE = r"law Unmade cannot be made: OSError: no \\x1b\[31m\\ndevice \(.*/faili
 
 
 @pytest.fixture(autouse=True)
-def failing_laws(tmp_path, env):
+def failing_laws(user_module):
     """A module with such laws on the Python path of the processes."""
-    (tmp_path / "failing_laws.py").write_text(LAW)
-    env["PYTHONPATH"] = os.pathsep.join([str(tmp_path), env.get("PYTHONPATH", "")])
+    user_module("failing_laws", LAW)
 
 
 def one_sentence(output, words):

@@ -52,10 +52,9 @@ class Held(ControlLaw):
 """
 
 
-def test_a_run_interrupted_before_its_first_sample_leaves_nothing(start_cli, env, tmp_path):
+def test_a_run_interrupted_before_its_first_sample_leaves_nothing(start_cli, user_module, tmp_path):
     """The simulator waits for a controller; neither the folder nor the one made for it stays."""
-    (tmp_path / "held.py").write_text(HELD)
-    env["PYTHONPATH"] = os.pathsep.join([str(tmp_path), env.get("PYTHONPATH", "")])
+    user_module("held", HELD)
     run = start_cli("run", "--law", "held:Held", "--out", tmp_path / "new" / "run")
     wait_for_text(tmp_path / "new" / "run" / "log" / "simulator.log", "controller")
     run.signal(signal.SIGINT)

@@ -154,10 +154,9 @@ class Halting(ControlLaw):
 """
 
 
-def test_a_run_that_lost_messages_says_so(start_cli, env, tmp_path):
+def test_a_run_that_lost_messages_says_so(start_cli, user_module, tmp_path):
     """A recorder that stands still for longer than it is waited for: what it missed is counted, the exit code tells."""
-    (tmp_path / "halting.py").write_text(HALTING)
-    env["PYTHONPATH"] = os.pathsep.join([str(tmp_path), env.get("PYTHONPATH", "")])
+    user_module("halting", HALTING)
     run = start_cli("run", "--law", "halting:Halting", "--duration", "8", "--one-process", "--out", tmp_path / "out")
     wait_until((tmp_path / "halted").exists)
     recorder = nodes_of(tmp_path / "out")["recorder"]
