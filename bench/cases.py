@@ -9,10 +9,8 @@ others work as well. Processor time is compared.
 
 import argparse
 import tempfile
-import threading
 import time
 from concurrent.futures import ProcessPoolExecutor
-from contextlib import suppress
 from itertools import repeat
 from pathlib import Path
 from statistics import mean
@@ -69,9 +67,9 @@ def main():
     alone = on_all_cores(vehicle, first, before)
     with tempfile.TemporaryDirectory() as folder, Progress(console=Console(stderr=True)) as progress:
         store = CaseStore(folder, file.read_text(encoding="utf-8"))
-        watch, began = Watch(), time.monotonic()
+        already, began = processor_time(), time.monotonic()
         found = run_missing(vehicle, cases(count), store, None, progress, "cases", drive)
-        took, spent = time.monotonic() - began, watch.end()
+        took, spent = time.monotonic() - began, processor_time() - already
         size = sum(path.stat().st_size for path in Path(folder).iterdir())
     alone += on_all_cores(vehicle, first, after)
     assert len(found) == count and all(result.status == case.GOOD for result in found.values())
@@ -82,28 +80,10 @@ def main():
           f" {psutil.Process().memory_info().rss / 1e6:.0f} MB in the study's process")  # fmt: skip
 
 
-class Watch:
-    """Looks at the processor time [s] of this process and of all below it until `end`, which returns their sum."""
-
-    def __init__(self):
-        self._own = psutil.Process()
-        self._before, self._spent, self._over = self._time(self._own), {}, threading.Event()
-        self._thread = threading.Thread(target=self._look)
-        self._thread.start()
-
-    def end(self):
-        self._over.set()
-        self._thread.join()
-        return self._time(self._own) - self._before + sum(self._spent.values())
-
-    def _look(self):
-        while not self._over.wait(0.25):
-            for child in self._own.children(recursive=True):
-                with suppress(psutil.Error):  # it has just ended
-                    self._spent[child.pid] = self._time(child)
-
-    def _time(self, process):
-        return sum(process.cpu_times()[:2])
+def processor_time():
+    """Return what this process and all that it has ever started have taken [s], whether they have ended or not."""
+    own = psutil.Process()
+    return sum(sum(process.cpu_times()[:4]) for process in (own, *own.children(recursive=True)))
 
 
 if __name__ == "__main__":

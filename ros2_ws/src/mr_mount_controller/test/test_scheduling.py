@@ -1,4 +1,4 @@
-"""Property: what the operating system says of a process that has taken up priority and core, or stands back."""
+"""Property: what the operating system says of a process that takes up priority and core, stands back or is punctual."""
 
 import json
 import subprocess
@@ -73,6 +73,21 @@ for thread in map(int, os.listdir("/proc/self/task")):
 """
     said = subprocess.run([sys.executable, "-c", program], capture_output=True, check=True, text=True).stdout
     assert said.splitlines() == ["True 10", "True 10"]
+
+
+def test_who_wakes_on_time_is_not_kept_waiting():
+    """The kernel may delay its wake-ups by 1 ns; by more before."""
+    program = """
+import threading
+from pathlib import Path
+from mr_mount_controller.node_base.scheduling import wake_on_time
+own = Path("/proc/self/timerslack_ns")
+before = own.read_text()
+wake_on_time()
+print(int(before) > 1, own.read_text().strip())
+"""
+    said = subprocess.run([sys.executable, "-c", program], capture_output=True, check=True, text=True).stdout
+    assert said.split() == ["True", "1"]
 
 
 def test_what_is_not_allowed_is_told_with_a_hint():

@@ -18,6 +18,7 @@ from .loop_node import NodeError
 from .parameter_files import without_effect
 from .parameters import ParameterError
 from .plain_text import plain_line
+from .scheduling import wake_on_time
 from .shared_memory import remove_unfinished_segments
 
 _ACCEPTED = (
@@ -96,6 +97,7 @@ def run_node(make_node, args=None, companions=()):
         for words in without_effect(arguments, [node.get_fully_qualified_name() for node in nodes]):
             nodes[-1].get_logger().warning(plain_line(words))
         gc.freeze()  # what the start has made stays; looking through it again would hold up a period
+        wake_on_time()
         try:
             nodes[-1].run()
         finally:

@@ -11,7 +11,7 @@ from trackvib_sim.rui.linear.modes import modes
 from trackvib_sim.rui.state import rest_state
 from trackvib_sim.rui.sweeps.articulated import new_cuts
 from trackvib_sim.simulation.open_loop import run_open_loop
-from trackvib_sim.vehicle.body_tree import GRAVITY, SIDES, bodies_on_hinges, build_body_table
+from trackvib_sim.vehicle.body_tree import GRAVITY, SIDES, bodies_on_hinges, build_body_table, mass_of_bodies
 from trackvib_sim.vehicle.equilibrium import static_equilibrium
 from trackvib_sim.vehicle.mount_law import mount_axes
 from trackvib_sim.vehicle.mount_loads import loads_at_rest
@@ -32,6 +32,13 @@ MIRROR = np.array([1.0, -1.0, 1.0])
 def standing(vehicle):
     """The record of a vehicle at rest with its engine off."""
     return build_system(vehicle, Operation(0.0, 0.0, False), 1e-4)
+
+
+@FEW
+@given(vehicle=vehicles())
+def test_its_mass_is_that_of_its_table(vehicle):
+    """To the last bit: the masses are summed in the order of the table."""
+    assert mass_of_bodies(vehicle) == sum(body.mass for body in build_body_table(vehicle))
 
 
 @FEW

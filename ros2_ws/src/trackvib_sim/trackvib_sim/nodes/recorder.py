@@ -26,7 +26,7 @@ from .recorder_parameters import PARAMETERS
 from .topic_choice import TopicChoice, subscribe
 
 _NAMES_TIMEOUT = 3.0  # s
-_REST = 0.01  # s between looks, in which no loop comes as far ahead as it may, 100 periods
+_REST = 0.005  # s between looks, in which no loop comes as far ahead as it may, 100 periods
 _FLUSH = 0.5  # s; a recorder that is killed loses this much and a look at most
 _LOOK = 0.5  # s between looks for further topics
 _QUIET = 0.2  # s without a message after which nothing more is expected at the end

@@ -25,6 +25,9 @@ _NOISY = ("distributed", "distributed.client", "tornado.application", "tornado.g
 _NO_PAGES = {"distributed.scheduler.http.routes": [], "distributed.worker.http.routes": []}
 # nor does anybody look at profiles of workers, which take a twentieth of a case
 _NO_PROFILES = {"distributed.worker.profile.enabled": False}
+# nor need a worker hand the memory of each array back, to ask for it anew for the next one, as it does by default: the
+# filters of a case take half as long again by that; bytes, of arrays and of what is free at the end of a heap
+_KEPT_MEMORY = {f"distributed.nanny.pre-spawn-environ.MALLOC_{name}_THRESHOLD_": 2**25 for name in ("MMAP", "TRIM")}
 # workers are forked from a process that has loaded once what all of them need
 _FORKED = {"distributed.worker.multiprocessing-method": "forkserver"}
 
@@ -147,7 +150,7 @@ def _local(workers):
     os.environ["PYTHONSAFEPATH"] = "1"
     # the tracker would let signals through again when it starts
     resource_tracker.ensure_running()
-    with block_interrupts(), dask.config.set(_NO_PAGES | _NO_PROFILES | _FORKED):
+    with block_interrupts(), dask.config.set(_NO_PAGES | _NO_PROFILES | _KEPT_MEMORY | _FORKED):
         get_mp_context().set_forkserver_preload(["distributed", "trackvib_sim.studies.case"])
         return LocalCluster(
             n_workers=workers,

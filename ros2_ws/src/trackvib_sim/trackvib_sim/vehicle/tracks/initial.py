@@ -4,7 +4,7 @@ from math import pi
 
 import numpy as np
 
-from ..body_tree import GRAVITY, SIDES, build_body_table, drive_end
+from ..body_tree import GRAVITY, SIDES, drive_end, mass_of_bodies
 from .layout import assemble_track, sink
 from .nodes import STRIDE
 from .sprockets import pitch_radius
@@ -22,7 +22,7 @@ def assemble_tracks(vehicle, system, state, speed, phase):
     end = drive_end(vehicle)
     state.tree.position[:, 2] += height
     state.tree.velocity[:, 0] = speed
-    weight = sum(body.mass for body in build_body_table(vehicle)) * GRAVITY
+    weight = mass_of_bodies(vehicle) * GRAVITY
     state.drive.driving.speed_integral[0] = np.sign(speed) * DRAG * weight
     state.tree.hinge_rate[tracks.wheels.row] = speed / tracks.wheels.radius
     state.tree.hinge_rate[tracks.sprockets.row] = speed / radius

@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 from scipy.spatial import ConvexHull, QhullError
 
 from ...numerics.compiled import kernel
-from ..body_tree import GRAVITY, SIDE_NAMES, SIDES, build_body_table, drive_end
+from ..body_tree import GRAVITY, SIDE_NAMES, SIDES, drive_end, mass_of_bodies
 from .sprockets import pitch_radius
 
 _CORNERS = 2000  # of the polygons that stand for circles; they are 1e-6 of the radius too small
@@ -116,7 +116,7 @@ def assemble_track(vehicle, side, travel, phase):
 
 def sink(vehicle):
     """Return how far the road wheels' rubber gives under an equal share of the weight of all bodies [m]."""
-    weight = sum(body.mass for body in build_body_table(vehicle)) * GRAVITY
+    weight = mass_of_bodies(vehicle) * GRAVITY
     return weight / (len(SIDES) * vehicle.swing_arms.stations * vehicle.tyres.radial_stiffness)
 
 
