@@ -204,18 +204,8 @@ def law():
 def loop(*options):
     """Return what a run's summary says of its loop; None where its options are not allowed."""
     with tempfile.TemporaryDirectory() as folder:
-        command = [
-            sys.executable,
-            "-m",
-            "trackvib_sim.cli",
-            "run",
-            "--duration",
-            str(SECONDS),
-            "--out",
-            "run",
-            *options,
-        ]
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+        command = [sys.executable, "-m", "trackvib_sim.cli", "run", "--duration", str(SECONDS), "--out", "run"]
+        done = subprocess.run([*command, *options], cwd=folder, capture_output=True, text=True)
         if "not allowed" in done.stderr:
             return None
         if done.returncode:
